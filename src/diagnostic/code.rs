@@ -1,0 +1,163 @@
+//! The table of problems Petril knows: one code each, never reused.
+
+use std::fmt;
+
+/// Whether a problem stops the work or is only worth knowing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The text cannot be used as it is.
+    Error,
+    /// The text can be used, but probably does not say what was meant.
+    Warning,
+}
+
+macro_rules! codes {
+    ($($(#[doc = $summary:literal])+ $name:ident = $id:literal,)+) => {
+        /// A known problem. The hundreds of its number say where it is found: 01 syntax, 02 declarations and names, 03
+        /// instructions, 04 nets and plants, 05 requirements, 06 input tables.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code { $($(#[doc = $summary])+ $name,)+ }
+
+        impl Code {
+            /// Every code, in the order of the table.
+            pub const ALL: &'static [Code] = &[$(Code::$name),+];
+
+            /// The code as it is printed, like `E0201`.
+            #[must_use]
+            pub fn id(self) -> &'static str {
+                match self { $(Code::$name => $id),+ }
+            }
+
+            /// What the problem is, in one sentence.
+            #[must_use]
+            pub fn summary(self) -> &'static str {
+                match self { $(Code::$name => concat!($($summary),+).trim_ascii()),+ }
+            }
+        }
+    };
+}
+
+codes! {
+    /// The file is binary, or in an encoding that holds NUL bytes.
+    NotText = "E0101",
+    /// The text is not what the grammar expects at this place.
+    Syntax = "E0102",
+    /// A comment is opened and never closed.
+    CommentNotClosed = "E0103",
+    /// A parenthesis is opened and never closed.
+    ParenthesisNotClosed = "E0104",
+    /// A closing parenthesis has no opening one.
+    ParenthesisNotOpened = "E0105",
+    /// Parentheses are nested too deeply.
+    ParenthesisTooDeep = "E0106",
+    /// A program organisation unit or a declaration block has no end.
+    EndMissing = "E0107",
+    /// The file declares nothing that can be run.
+    NothingToCheck = "E0108",
+    /// The first word of an instruction is neither an operator nor a known function.
+    UnknownOperator = "E0109",
+    /// The file is too large to be taken in.
+    FileTooLarge = "E0110",
+    /// The file declares several programs.
+    SeveralPrograms = "E0111",
+
+    /// A name is declared twice.
+    NameDeclaredTwice = "E0201",
+    /// A name is used and not declared.
+    NameNotDeclared = "E0202",
+    /// A data type is not supported.
+    TypeNotSupported = "E0203",
+    /// An initial value does not fit the type.
+    InitialValueUnfit = "E0204",
+    /// A kind of declaration is not supported.
+    DeclarationNotSupported = "E0205",
+    /// A constant has no initial value.
+    ConstantWithoutValue = "W0206",
+    /// A program organisation unit is not part of what is checked.
+    PouNotChecked = "W0207",
+
+    /// An operator is not supported.
+    OperatorNotSupported = "E0301",
+    /// An operand is missing, or stands where none belongs.
+    OperandCount = "E0302",
+    /// An operand is not of a kind the operator takes.
+    OperandUnfit = "E0303",
+    /// An input of the program is written.
+    InputWritten = "E0304",
+    /// A constant is written.
+    ConstantWritten = "E0305",
+    /// A jump goes to a label that does not exist.
+    LabelNotDefined = "E0306",
+    /// A label is defined twice.
+    LabelDefinedTwice = "E0307",
+    /// A label, jump, return or call stands inside parentheses.
+    ControlInsideParentheses = "E0308",
+    /// The current result is used where it may not have a value.
+    ResultUndefined = "E0309",
+    /// A parenthesis does not begin with a value.
+    ParenthesisWithoutValue = "E0310",
+    /// An instruction can never be executed.
+    InstructionUnreachable = "W0311",
+    /// A label is never jumped to.
+    LabelNotUsed = "W0312",
+
+    /// A net file is not what its format asks for.
+    NetSyntax = "E0401",
+    /// A net uses something that safe place/transition nets do not have.
+    NetNotOrdinary = "E0402",
+    /// A node of a net is defined twice or refers to nothing.
+    NetReference = "E0403",
+    /// A plant drives or reads a variable the program does not have.
+    PlantVariableUnknown = "E0404",
+    /// A plant place names a variable that a plant cannot drive or read.
+    PlantVariableUnfit = "E0405",
+    /// A plant is not safe: a place can get a second token.
+    PlantNotSafe = "E0406",
+    /// An input has no value, or several, in some marking of the plant.
+    PlantInputAmbiguous = "E0407",
+    /// A plant writes a variable of the program.
+    PlantWritesProgram = "E0408",
+    /// Two plants have the same name.
+    PlantNameTwice = "E0409",
+    /// A component of a plant has too many markings to be taken in.
+    PlantTooLarge = "E0410",
+
+    /// A requirement is not what the grammar expects.
+    RequirementSyntax = "E0501",
+    /// A requirement names something that does not exist.
+    RequirementNameUnknown = "E0502",
+    /// Truth values and numbers are mixed where they cannot be.
+    RequirementTypes = "E0503",
+    /// Two requirements have the same name.
+    RequirementNameTwice = "E0504",
+    /// A requirement asks for something this view of the system does not have.
+    RequirementView = "E0505",
+
+    /// A table of inputs is not what the program needs.
+    InputTable = "E0601",
+}
+
+impl Code {
+    /// Whether the problem stops the work; the letter of the code.
+    #[must_use]
+    pub fn severity(self) -> Severity {
+        if self.id().starts_with('W') { Severity::Warning } else { Severity::Error }
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.id())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Code;
+
+    #[test]
+    fn ids_are_unique_and_in_order_within_their_hundred() {
+        let numbers: Vec<&str> = Code::ALL.iter().map(|code| &code.id()[1..]).collect();
+        assert!(numbers.is_sorted_by(|a, b| a < b), "{numbers:?}");
+    }
+}

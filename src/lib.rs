@@ -1,0 +1,7 @@
+//! Petril proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
+#![doc = ""]
+
+pub mod diagnostic;
+pub mod semantics;
+pub mod source;
+pub mod syntax;

@@ -1,0 +1,31 @@
+//! A program does not write its constants.
+//!
+//! Passes: `LD constant`.
+//! Fails: `ST constant`.
+
+use super::{Context, Role};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::semantics::rule_inputs_not_written::writes;
+
+pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
+    writes(context, Role::Constant)
+        .map(|(name, declared)| {
+            let message = format!("the constant `{}` is written", name.text);
+            Diagnostic::new(Code::ConstantWritten, name.span, message)
+                .also(declared, "declared as a constant here")
+                .help("declare it in `VAR` if it changes")
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Code;
+    use crate::semantics::testing::{lines, program};
+
+    #[test]
+    fn writing_a_constant_is_refused() {
+        let text = program("LD k\nST q\nST k\nR K");
+        assert_eq!(lines(Code::ConstantWritten, &text), [4, 5]);
+    }
+}

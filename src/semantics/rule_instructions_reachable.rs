@@ -1,0 +1,38 @@
+//! Control can come to every instruction.
+//!
+//! Passes: `JMPC on`, `LD a`, `on: LD b`.
+//! Fails: `JMP on`, `LD a`, `on: LD b`: nothing ever executes `LD a`.
+
+use super::{Context, control_flow};
+use crate::diagnostic::{Code, Diagnostic};
+
+pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
+    let body = &context.pou.body;
+    let reachable = control_flow::reachable(&control_flow::graph(body));
+    let mut found = Vec::new();
+    let mut i = 0;
+    while i < body.len() {
+        let run = reachable[i..body.len()].iter().take_while(|&&reachable| !reachable).count();
+        if run > 0 {
+            let message = match run {
+                1 => "this instruction can never be executed".to_owned(),
+                _ => format!("these {run} instructions can never be executed"),
+            };
+            found.push(Diagnostic::new(Code::InstructionUnreachable, body[i].span.to(body[i + run - 1].span), message));
+        }
+        i += run + 1;
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Code;
+    use crate::semantics::testing::{lines, program};
+
+    #[test]
+    fn each_stretch_of_dead_code_is_reported_once() {
+        let text = program("LD i\nJMP on\nLD j\nST m\non: ST q\nRET\nLD j");
+        assert_eq!(lines(Code::InstructionUnreachable, &text), [4, 8]);
+    }
+}

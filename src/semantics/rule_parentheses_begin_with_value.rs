@@ -1,0 +1,53 @@
+//! A parenthesis begins with a value: an operand behind `(`, or a load as its first instruction.
+//!
+//! Passes: `AND( a` … `)`; `AND(`, `LD a` … `)`.
+//! Fails: `AND(`, `OR a`, `)`; `AND(`, `)`.
+
+use super::Context;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::ast::{Instruction, Operation, Verb, with_nested};
+
+pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
+    let instructions = with_nested(&context.pou.body);
+    instructions
+        .filter_map(|(instruction, _)| {
+            let Some(Operation::Parenthesis { operator, first: None, body, close }) = &instruction.operation else {
+                return None;
+            };
+            let unvalued = |span, message: String| {
+                Diagnostic::new(Code::ParenthesisWithoutValue, span, message)
+                    .also(instruction.span, "the parenthesis opens here")
+                    .help(format!("begin with `{operator}( a` or with `LD a`"))
+            };
+            match body.first() {
+                None => Some(unvalued(*close, "this parenthesis is empty".to_owned())),
+                Some(first) if begins_with_value(first) => None,
+                Some(first) => {
+                    let message = "the parenthesis has no value yet when this instruction uses it";
+                    Some(unvalued(first.span, message.to_owned()))
+                }
+            }
+        })
+        .collect()
+}
+
+/// A load; calls and control are reported by other rules.
+fn begins_with_value(instruction: &Instruction) -> bool {
+    match &instruction.operation {
+        Some(Operation::Simple { operator, .. }) => operator.verb == Verb::Ld,
+        Some(Operation::Parenthesis { .. }) => false,
+        _ => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Code;
+    use crate::semantics::testing::{lines, program};
+
+    #[test]
+    fn a_parenthesis_needs_a_first_value() {
+        let text = program("LD i\nAND( j\n)\nAND(\nLDN j\n)\nAND(\nOR j\n)\nAND(\n)\nAND(\nAND( j\n)\n)\nST q");
+        assert_eq!(lines(Code::ParenthesisWithoutValue, &text), [9, 12, 14]);
+    }
+}

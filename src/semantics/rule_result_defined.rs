@@ -1,0 +1,93 @@
+//! The current result is used only where a load has given it a value, on every way control can take.
+//!
+//! Passes: `LD a`, `ST b`.
+//! Fails: `ST b` as the first instruction; `LD a` reached by no path that jumps over it.
+
+use petgraph::Direction;
+use petgraph::graph::NodeIndex;
+
+use super::{Context, control_flow};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::ast::{Condition, Instruction, Operation, Verb};
+
+pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
+    let body = &context.pou.body;
+    let undefined_after = undefined_after(body);
+    let graph = control_flow::graph(body);
+    let reachable = control_flow::reachable(&graph);
+    let mut found = Vec::new();
+    for (i, instruction) in body.iter().enumerate().filter(|&(i, instruction)| reachable[i] && uses(instruction)) {
+        let culprits = graph.neighbors_directed(NodeIndex::new(i), Direction::Incoming);
+        let culprit = culprits.map(NodeIndex::index).filter(|&p| reachable[p] && undefined_after[p]).min();
+        if i > 0 && culprit.is_none() {
+            continue;
+        }
+        let message = "the current result may have no value here";
+        let diagnostic = Diagnostic::new(Code::ResultUndefined, instruction.span, message).here("uses it");
+        let diagnostic = match culprit {
+            Some(p) => diagnostic.also(body[p].span, "control comes from here without a value"),
+            None => diagnostic,
+        };
+        found.push(diagnostic.help("load a value first, with `LD`"));
+    }
+    found
+}
+
+/// For each instruction, whether control can leave it while the current result has no value. A use gives it one here,
+/// so that one missing load is one diagnostic.
+fn undefined_after(body: &[Instruction]) -> Vec<bool> {
+    let graph = control_flow::graph(body);
+    let mut undefined = vec![false; body.len() + 1];
+    let mut work = vec![NodeIndex::new(0)];
+    while let Some(node) = work.pop() {
+        let gives_value = body.get(node.index()).is_none_or(|i| uses(i) || loads(i));
+        if gives_value || undefined[node.index()] {
+            continue;
+        }
+        undefined[node.index()] = true;
+        work.extend(graph.neighbors(node));
+    }
+    undefined
+}
+
+fn loads(instruction: &Instruction) -> bool {
+    match &instruction.operation {
+        Some(Operation::Simple { operator, .. }) => operator.verb == Verb::Ld,
+        // What these leave behind is for the rule that refuses them.
+        Some(Operation::Call { .. } | Operation::Function { .. }) => true,
+        _ => false,
+    }
+}
+
+fn uses(instruction: &Instruction) -> bool {
+    match &instruction.operation {
+        Some(Operation::Simple { operator, .. }) => operator.verb != Verb::Ld,
+        Some(Operation::Parenthesis { .. }) => true,
+        Some(Operation::Jump { condition, .. } | Operation::Return { condition }) => *condition != Condition::Always,
+        Some(Operation::Call { .. } | Operation::Function { .. }) | None => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Code;
+    use crate::semantics::testing::{lines, program};
+
+    #[test]
+    fn a_use_before_any_load_is_reported_once() {
+        assert_eq!(lines(Code::ResultUndefined, &program("ST q\nST m\nAND i")), [2]);
+        assert_eq!(lines(Code::ResultUndefined, &program("RETC\nLD i\nST q")), [2]);
+        assert_eq!(lines(Code::ResultUndefined, &program("LD i\nST q\nRETC")), [0; 0]);
+    }
+
+    #[test]
+    fn a_jump_can_bring_a_result_or_none() {
+        assert_eq!(lines(Code::ResultUndefined, &program("JMP on\nback: LD i\non: ST q\nJMPC back")), [4]);
+        assert_eq!(lines(Code::ResultUndefined, &program("LD i\nJMPC on\nLD j\non: ST q")), [0; 0]);
+    }
+
+    #[test]
+    fn unreachable_uses_do_not_count() {
+        assert_eq!(lines(Code::ResultUndefined, &program("RET\nST q")), [0; 0]);
+    }
+}

@@ -1,0 +1,22 @@
+//! What the rules' tests share.
+
+use super::check;
+use crate::diagnostic::Code;
+use crate::source::Source;
+use crate::syntax::parse;
+
+/// A program with inputs `i`, `j`, memory `m`, output `q`, constant `k`; the body begins in line 2.
+pub fn program(body: &str) -> String {
+    format!(
+        "PROGRAM p VAR_INPUT i, j : BOOL; END_VAR VAR m : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR \
+         VAR CONSTANT k : BOOL := TRUE; END_VAR\n{body}\nEND_PROGRAM"
+    )
+}
+
+/// The lines where a text is reported with this code.
+pub fn lines(code: Code, text: &str) -> Vec<usize> {
+    let source = Source::new("test", text);
+    let (unit, mut diagnostics) = parse(&source);
+    diagnostics.extend(check(&unit, true).1);
+    diagnostics.iter().filter(|d| d.code == code).map(|d| source.line_of(d.span().start)).collect()
+}

@@ -1,0 +1,146 @@
+//! A source text with its name, and byte spans into it.
+
+use std::ops::Range;
+
+/// A piece of a source text: byte offsets, the end exclusive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// Offset of the first byte.
+    pub start: usize,
+    /// Offset behind the last byte.
+    pub end: usize,
+}
+
+impl Span {
+    /// The span of the bytes `start..end`.
+    #[must_use]
+    pub fn new(start: usize, end: usize) -> Self {
+        Self { start, end }
+    }
+
+    /// The smallest span that covers both.
+    #[must_use]
+    pub fn to(self, other: Self) -> Self {
+        Self::new(self.start.min(other.start), self.end.max(other.end))
+    }
+
+    /// The span as a range of byte offsets.
+    #[must_use]
+    pub fn range(self) -> Range<usize> {
+        self.start..self.end
+    }
+}
+
+/// A text, the name it goes by in messages, and where its lines start.
+///
+/// Line starts are computed once, so that asking for a line and column is a binary search.
+#[derive(Clone, Debug)]
+pub struct Source {
+    name: String,
+    text: String,
+    line_starts: Vec<usize>,
+}
+
+/// The bytes are no text: a NUL byte stands at this offset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotText {
+    /// Offset of the NUL byte.
+    pub offset: usize,
+}
+
+impl Source {
+    /// A source from a text that is already in memory.
+    #[must_use]
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        let text = text.into();
+        let after_newline = text.bytes().enumerate().filter(|&(_, b)| b == b'\n').map(|(i, _)| i + 1);
+        let line_starts = std::iter::once(0).chain(after_newline).collect();
+        Self { name: name.into(), text, line_starts }
+    }
+
+    /// A source from the bytes of a file: UTF-8 with or without a byte order mark, else ISO 8859-1, which is what the
+    /// engineering tools of the 1990s wrote and which reads any bytes.
+    ///
+    /// # Errors
+    /// [`NotText`] if the bytes hold a NUL, so are no text in either encoding.
+    pub fn decode(name: impl Into<String>, bytes: &[u8]) -> Result<Self, NotText> {
+        if let Some(offset) = bytes.iter().position(|&b| b == 0) {
+            return Err(NotText { offset });
+        }
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) => text.to_owned(),
+            Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
+        };
+        Ok(Self::new(name, text))
+    }
+
+    /// The name the text goes by in messages, usually the path as the user gave it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The whole text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The text under a span.
+    #[must_use]
+    pub fn slice(&self, span: Span) -> &str {
+        &self.text[span.range()]
+    }
+
+    /// Line and column of a byte offset, both counted from 1, the column in characters.
+    #[must_use]
+    pub fn line_column(&self, offset: usize) -> (usize, usize) {
+        let line = self.line_of(offset);
+        let column = self.text[self.line_starts[line - 1]..offset].chars().count() + 1;
+        (line, column)
+    }
+
+    /// Line of a byte offset, counted from 1.
+    #[must_use]
+    pub fn line_of(&self, offset: usize) -> usize {
+        self.line_starts.partition_point(|&start| start <= offset)
+    }
+
+    /// The lines `first..=last` (from 1) as one span, line ends included.
+    #[must_use]
+    pub fn lines(&self, first: usize, last: usize) -> Span {
+        let end = self.line_starts.get(last).copied().unwrap_or(self.text.len());
+        Span::new(self.line_starts[first - 1], end)
+    }
+
+    /// The text of a line (from 1) without its line end and outer blanks.
+    #[must_use]
+    pub fn line_text(&self, line: usize) -> &str {
+        self.slice(self.lines(line, line)).trim()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_columns_count_from_one_in_characters() {
+        let source = Source::new("x", "ab\nä=1\r\n\nz");
+        assert_eq!(source.line_column(0), (1, 1));
+        assert_eq!(source.line_column(2), (1, 3), "the line end belongs to its line");
+        assert_eq!(source.line_column(5), (2, 2), "ä is one column, two bytes");
+        assert_eq!(source.line_column(11), (4, 2), "the end of the text");
+        assert_eq!(source.line_text(2), "ä=1");
+    }
+
+    #[test]
+    fn bytes_are_utf8_or_latin1_but_never_binary() {
+        let utf8 = Source::decode("x", "\u{feff}Tür".as_bytes()).unwrap();
+        assert_eq!(utf8.text(), "Tür", "the byte order mark goes");
+        let latin1 = Source::decode("x", b"T\xFCr").unwrap();
+        assert_eq!(latin1.text(), "Tür");
+        assert_eq!(Source::decode("x", b"ab\0c").unwrap_err(), NotText { offset: 2 });
+    }
+}

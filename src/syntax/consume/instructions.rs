@@ -1,0 +1,229 @@
+//! Instruction lists: pieces to instructions, and the two ends of each parenthesis paired.
+
+use pest::iterators::Pair;
+
+use super::{boolean, first_word, name, span, var_block};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Condition, Constant, Instruction, Name, Operand, Operation, Operator, VarBlock, Verb};
+use crate::syntax::expected;
+use crate::syntax::parse::Rule;
+
+/// Parentheses may be nested this deep. Real programs stay below ten; the limit keeps everything that walks the tree
+/// within its stack.
+const MAX_DEPTH: usize = 200;
+
+/// The pair of the rule `body`: its instructions, and declaration blocks that stand between them.
+pub fn body(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> (Vec<Instruction>, Vec<VarBlock>) {
+    let mut list = ListBuilder::default();
+    let mut blocks = Vec::new();
+    for piece in pair.into_inner() {
+        match piece.as_rule() {
+            Rule::instruction => list.instruction(piece, diagnostics),
+            Rule::bad_line => list.bad_line(&piece, diagnostics),
+            Rule::var_block => {
+                let block = var_block(piece, diagnostics);
+                let message = format!("a `{}` block stands behind an instruction", block.kind);
+                diagnostics.push(
+                    Diagnostic::new(Code::Syntax, block.span, message).help("move it before the first instruction"),
+                );
+                blocks.push(block);
+            }
+            _ => {}
+        }
+    }
+    (list.finish(diagnostics), blocks)
+}
+
+/// A parenthesis that is still open.
+struct Open {
+    label: Option<Name>,
+    operator: Operator,
+    first: Option<Operand>,
+    span: Span,
+    /// Instructions before the parenthesis, on its level.
+    outer: Vec<Instruction>,
+}
+
+/// Builds the list with an explicit stack, so that nesting costs no recursion.
+#[derive(Default)]
+struct ListBuilder {
+    current: Vec<Instruction>,
+    open: Vec<Open>,
+    /// How many parentheses beyond [`MAX_DEPTH`] are open; they are counted, not kept.
+    too_deep: usize,
+}
+
+impl ListBuilder {
+    fn instruction(&mut self, pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
+        let whole = span(&pair);
+        let mut label = None;
+        let mut operation = None;
+        for piece in pair.into_inner() {
+            match piece.as_rule() {
+                Rule::label => label = piece.into_inner().next().map(|p| name(&p)),
+                Rule::parenthesis => return self.open(label, piece, whole, diagnostics),
+                Rule::parenthesis_end => {
+                    if label.is_some() {
+                        self.push(label.take(), None, whole);
+                    }
+                    return self.close(span(&piece), diagnostics);
+                }
+                _ => operation = Some(self::operation(piece)),
+            }
+        }
+        self.push(label, operation, whole);
+    }
+
+    fn push(&mut self, label: Option<Name>, operation: Option<Operation>, span: Span) {
+        self.current.push(Instruction { label, operation, span });
+    }
+
+    fn open(&mut self, label: Option<Name>, pair: Pair<'_, Rule>, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+        if self.open.len() == MAX_DEPTH {
+            if self.too_deep == 0 {
+                let message = format!("parentheses are nested more than {MAX_DEPTH} deep");
+                let help = "store an intermediate result in a variable instead";
+                diagnostics.push(Diagnostic::new(Code::ParenthesisTooDeep, span, message).help(help));
+            }
+            self.too_deep += 1;
+            return;
+        }
+        let mut word = Operator { verb: Verb::And, negated: false };
+        let mut first = None;
+        for piece in pair.into_inner() {
+            match piece.as_rule() {
+                Rule::expr_operator => word = operator(piece.as_str()),
+                _ => first = operand(piece),
+            }
+        }
+        let outer = std::mem::take(&mut self.current);
+        self.open.push(Open { label, operator: word, first, span, outer });
+    }
+
+    fn close(&mut self, close: Span, diagnostics: &mut Vec<Diagnostic>) {
+        if self.too_deep > 0 {
+            self.too_deep -= 1;
+        } else if let Some(Open { label, operator, first, span, outer }) = self.open.pop() {
+            let body = std::mem::replace(&mut self.current, outer);
+            self.push(label, Some(Operation::Parenthesis { operator, first, body, close }), span);
+        } else {
+            let message = "this parenthesis closes nothing";
+            diagnostics.push(
+                Diagnostic::new(Code::ParenthesisNotOpened, close, message)
+                    .help("a parenthesis opens behind an operator, like `AND(`"),
+            );
+        }
+    }
+
+    /// Reports a line that cannot be read. Its parentheses count all the same, so that their partners are not reported.
+    fn bad_line(&mut self, pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
+        diagnostics.push(explain(pair));
+        for (at, c) in pair.as_str().char_indices() {
+            let at = pair.as_span().start() + at;
+            match c {
+                '(' if self.open.len() < MAX_DEPTH => self.open.push(Open {
+                    label: None,
+                    operator: Operator { verb: Verb::And, negated: false },
+                    // Something stands there, which keeps the rules for empty parentheses quiet.
+                    first: Some(Operand::Constant(Constant {
+                        text: "FALSE".to_owned(),
+                        boolean: Some(false),
+                        span: span(pair),
+                    })),
+                    span: Span::new(at, at + 1),
+                    outer: std::mem::take(&mut self.current),
+                }),
+                '(' => self.too_deep += 1,
+                ')' => self.close(Span::new(at, at + 1), diagnostics),
+                _ => {}
+            }
+        }
+    }
+
+    fn finish(mut self, diagnostics: &mut Vec<Diagnostic>) -> Vec<Instruction> {
+        // Every open parenthesis is one error, but a reader learns nothing from the hundredth.
+        if let Some(innermost) = self.open.last() {
+            let message = match self.open.len() + self.too_deep {
+                1 => "this parenthesis is never closed".to_owned(),
+                n => format!("this parenthesis and {} around it are never closed", n - 1),
+            };
+            let help = "close it with `)` on a line of its own";
+            diagnostics.push(Diagnostic::new(Code::ParenthesisNotClosed, innermost.span, message).help(help));
+        }
+        let end = self.current.last().map_or(Span::default(), |i| Span::new(i.span.end, i.span.end));
+        self.too_deep = 0;
+        while !self.open.is_empty() {
+            self.close(end, diagnostics);
+        }
+        self.current
+    }
+}
+
+/// Says what is wrong with a line, the commonest slips first.
+fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
+    let word = first_word(pair);
+    let diagnostic = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
+    let spelling = word.text.trim_end_matches(['(', ':']);
+    if is_operator(spelling) || !spelling.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return diagnostic.help("an instruction is one operator with one operand, on a line of its own");
+    }
+    diagnostic.suggest(spelling, operator_words())
+}
+
+fn operation(pair: Pair<'_, Rule>) -> Operation {
+    let rule = pair.as_rule();
+    let word = first_word(&pair);
+    let suffix = |stem: &str| match word.key().trim_start_matches(stem) {
+        "C" => Condition::IfTrue,
+        "CN" => Condition::IfFalse,
+        _ => Condition::Always,
+    };
+    let mut pieces = pair.into_inner();
+    let Some(first) = pieces.next() else { return Operation::Function { name: word } };
+    match rule {
+        Rule::jump => {
+            let target = pieces.next().map_or_else(|| word.clone(), |p| name(&p));
+            Operation::Jump { condition: suffix("JMP"), target }
+        }
+        Rule::ret => Operation::Return { condition: suffix("RET") },
+        Rule::call => Operation::Call { callee: pieces.next().map_or_else(|| word.clone(), |p| name(&p)) },
+        Rule::simple if first.as_rule() == Rule::operator => {
+            Operation::Simple { operator: operator(first.as_str()), operands: pieces.filter_map(operand).collect() }
+        }
+        _ => Operation::Function { name: name(&first) },
+    }
+}
+
+fn operand(pair: Pair<'_, Rule>) -> Option<Operand> {
+    let piece = pair.into_inner().next()?;
+    let (rule, name) = (piece.as_rule(), name(&piece));
+    if rule == Rule::variable {
+        return Some(Operand::Variable(name));
+    }
+    let is_boolean = piece.into_inner().next().is_some_and(|p| p.as_rule() == Rule::boolean);
+    let boolean = is_boolean.then(|| boolean(&name.text));
+    Some(Operand::Constant(Constant { text: name.text, boolean, span: name.span }))
+}
+
+/// The operator of a word that the grammar has read as one.
+fn operator(word: &str) -> Operator {
+    let word = word.to_ascii_uppercase().replace('&', "AND");
+    let find = |stem: &str| Verb::ALL.iter().find(|(_, w)| *w == stem).map(|&(verb, _)| verb);
+    match find(&word) {
+        Some(verb) => Operator { verb, negated: false },
+        None => Operator { verb: find(word.trim_end_matches('N')).unwrap_or(Verb::Ld), negated: true },
+    }
+}
+
+/// Whether a word is one of the language's operators.
+fn is_operator(word: &str) -> bool {
+    operator_words().any(|operator| operator.eq_ignore_ascii_case(word))
+}
+
+/// The words an instruction can begin with.
+pub fn operator_words() -> impl Iterator<Item = &'static str> {
+    const OTHERS: [&str; 14] =
+        ["LDN", "STN", "ANDN", "ORN", "XORN", "JMP", "JMPC", "JMPCN", "RET", "RETC", "RETCN", "CAL", "CALC", "CALCN"];
+    Verb::ALL.iter().map(|&(_, word)| word).chain(OTHERS)
+}
