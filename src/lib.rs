@@ -2,6 +2,10 @@
 #![doc = ""]
 
 pub mod diagnostic;
+pub mod flat;
+pub mod interpret;
+pub mod net;
 pub mod semantics;
 pub mod source;
 pub mod syntax;
+pub mod translate;

@@ -6,6 +6,8 @@ fn main() {
         let source = source::Source::decode(f, &bytes).unwrap();
         let (unit, diags) = syntax::parse(&source);
         println!("{unit}");
-        for d in diags { print!("{}", diagnostic::render(&d, &source, Default::default())); }
+        for d in diags {
+            print!("{}", diagnostic::render(&d, &source, Default::default()));
+        }
     }
 }

@@ -53,9 +53,7 @@ fn statement(
             body: body.iter().map(|inner| statement(inner, symbols, target, end)).collect::<Option<_>>()?,
             close: *close,
         },
-        Operation::Jump { condition, target: label } => {
-            Action::Jump { condition: *condition, target: target(label)? }
-        }
+        Operation::Jump { condition, target: label } => Action::Jump { condition: *condition, target: target(label)? },
         Operation::Return { condition } => Action::Jump { condition: *condition, target: end },
         Operation::Call { .. } | Operation::Function { .. } => return None,
     };

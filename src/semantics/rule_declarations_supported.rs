@@ -14,21 +14,20 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
             Diagnostic::new(Code::DeclarationNotSupported, span, format!("{what} is not supported"))
         };
         match block.kind {
-            VarKind::Local => {}
             VarKind::Input | VarKind::Output if block.constant => found.push(
                 unsupported(block.span, format!("a constant `{}`", block.kind)).help("declare it in `VAR CONSTANT`"),
             ),
-            VarKind::Input | VarKind::Output => {}
+            VarKind::Local | VarKind::Input | VarKind::Output => {}
             kind => found.push(
                 unsupported(block.span, format!("`{kind}` in a program"))
                     .help("declare inputs, outputs and memory in `VAR_INPUT`, `VAR_OUTPUT` and `VAR`"),
             ),
         }
         if let Some(retain) = block.retain.as_ref().filter(|word| word.key() == "RETAIN") {
-            found.push(
-                unsupported(retain.span, "`RETAIN`".to_owned())
-                    .help("only a cold start is modelled, where every variable has its initial value; remove the word"),
-            );
+            found
+                .push(unsupported(retain.span, "`RETAIN`".to_owned()).help(
+                    "only a cold start is modelled, where every variable has its initial value; remove the word",
+                ));
         }
         for location in block.declarations.iter().filter_map(|declaration| declaration.location.as_ref()) {
             found.push(

@@ -1,0 +1,97 @@
+//! Checked program to flat code.
+
+use std::collections::BTreeSet;
+
+use super::{FlatProgram, Instruction, Line};
+use crate::semantics::{Action, Operand, Program, Role, Statement, VarId, Variable};
+use crate::source::Span;
+use crate::syntax::ast::key;
+
+/// Flattens a program.
+///
+/// `AND( x … )` becomes `ST A`, `LD x`, …, `ST B`, `LD A`, `AND B`. There is one variable like `A` for each depth of
+/// nesting, and one variable `B` for all, since its value is used at once.
+#[must_use]
+pub fn flatten(program: &Program) -> FlatProgram {
+    let mut lowering = Lowering { variables: program.variables.clone(), code: Vec::new(), buffers: Buffers::default() };
+    let mut starts = Vec::with_capacity(program.body.len() + 1);
+    for statement in &program.body {
+        starts.push(lowering.code.len());
+        lowering.statement(statement, 0);
+    }
+    starts.push(lowering.code.len());
+    for line in &mut lowering.code {
+        if let Instruction::Jump { target, .. } = &mut line.instruction {
+            *target = starts[*target];
+        }
+    }
+    FlatProgram { name: program.name.clone(), variables: lowering.variables, code: lowering.code }
+}
+
+struct Lowering {
+    variables: Vec<Variable>,
+    code: Vec<Line>,
+    buffers: Buffers,
+}
+
+/// The buffers made so far.
+#[derive(Default)]
+struct Buffers {
+    /// Holds the current result while the parenthesis of this depth is computed.
+    left: Vec<VarId>,
+    /// Holds the value of a parenthesis until its operator takes it.
+    right: Option<VarId>,
+}
+
+impl Lowering {
+    fn emit(&mut self, instruction: Instruction, span: Span) {
+        self.code.push(Line { instruction, span });
+    }
+
+    fn statement(&mut self, statement: &Statement, depth: usize) {
+        let instruction = match &statement.action {
+            &Action::Load { negated, operand } => Instruction::Load { negated, operand },
+            &Action::Store { negated, variable } => Instruction::Store { negated, variable },
+            &Action::Set(variable) => Instruction::Set(variable),
+            &Action::Reset(variable) => Instruction::Reset(variable),
+            Action::Complement => Instruction::Complement,
+            &Action::Combine { function, negated, operand } => Instruction::Combine { function, negated, operand },
+            // Jumps stand on the outermost level only; their targets become lines at the end.
+            &Action::Jump { condition, target } => Instruction::Jump { condition, target },
+            Action::Defer { function, negated, first, body, close } => {
+                let left = match self.buffers.left.get(depth) {
+                    Some(&left) => left,
+                    None => {
+                        let left = self.fresh();
+                        self.buffers.left.push(left);
+                        left
+                    }
+                };
+                let right = self.buffers.right.unwrap_or_else(|| self.fresh());
+                self.buffers.right = Some(right);
+                self.emit(Instruction::Store { negated: false, variable: left }, statement.span);
+                if let Some((operand, span)) = *first {
+                    self.emit(Instruction::Load { negated: false, operand }, span);
+                }
+                for inner in body {
+                    self.statement(inner, depth + 1);
+                }
+                let operand = Operand::Variable(right);
+                self.emit(Instruction::Store { negated: false, variable: right }, *close);
+                self.emit(Instruction::Load { negated: false, operand: Operand::Variable(left) }, *close);
+                return self.emit(Instruction::Combine { function: *function, negated: *negated, operand }, *close);
+            }
+        };
+        self.emit(instruction, statement.span);
+    }
+
+    /// A new variable named by the first of A, B, …, Z, A1, B1, … that is not taken.
+    fn fresh(&mut self) -> VarId {
+        let taken: BTreeSet<String> = self.variables.iter().map(|variable| key(&variable.name)).collect();
+        let letters =
+            |round: usize| ('A'..='Z').map(move |c| if round == 0 { c.to_string() } else { format!("{c}{round}") });
+        let name = (0..).flat_map(letters).find(|name| !taken.contains(name)).unwrap_or_default();
+        self.variables.push(Variable { name, role: Role::Buffer, initial: false, span: None });
+        VarId(self.variables.len() - 1)
+    }
+}

@@ -1,0 +1,184 @@
+//! A net to devices of a plant, with every check that a plant must pass.
+
+use std::collections::BTreeMap;
+
+use petgraph::unionfind::UnionFind;
+
+use super::component::{Component, PlantPlace, PlantTransition};
+use super::{Plant, markings};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::flat::FlatProgram;
+use crate::net::{Arcs, Located, PlaceId, TransitionId};
+use crate::semantics::{Role, VarId};
+use crate::translate::valuation;
+
+/// What a place of the net is to the program.
+enum Meaning {
+    /// A place of the plant, with the external values it stands for.
+    Own(Vec<(VarId, bool)>),
+    /// The program's outputs have these values.
+    Test(Vec<(VarId, bool)>),
+}
+
+impl Meaning {
+    fn values(&self) -> &[(VarId, bool)] {
+        match self {
+            Self::Own(values) | Self::Test(values) => values,
+        }
+    }
+}
+
+/// The components of a net.
+pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Result<Vec<Component>, Vec<Diagnostic>> {
+    let net = &file.net;
+    let mut errors = Vec::new();
+    if others.names().iter().any(|name| name == net.name()) {
+        let span = file.places.first().or(file.transitions.first()).copied().unwrap_or_default();
+        let message = format!("there are two plants named `{}`", net.name());
+        errors.push(Diagnostic::new(Code::PlantNameTwice, span, message).help("give each net a name of its own"));
+    }
+    let meanings: Vec<Meaning> = net
+        .place_ids()
+        .filter_map(|place| meaning(file, place, program).map_err(|error| errors.push(error)).ok())
+        .collect();
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let components = split(file, &meanings, &mut errors);
+    let components: Vec<Component> = components
+        .into_iter()
+        .filter_map(|(mut component, places)| {
+            let explored = markings::explore(&mut component, &places, file, program);
+            explored.map_err(|error| errors.push(*error)).ok().map(|()| component)
+        })
+        .collect();
+    let all: Vec<&Component> = others.components.iter().chain(&components).collect();
+    for input in program.with_role(Role::Input) {
+        if all.iter().filter(|component| component.drives(input)).count() > 1 {
+            let giving = net.place_ids().filter(
+                |place| matches!(&meanings[place.index()], Meaning::Own(drives) if drives.iter().any(|d| d.0 == input)),
+            );
+            let span = giving.map(|place| file.place_span(place)).last().unwrap_or_default();
+            let message = format!("two devices drive the input `{}`", program.variable(input).name);
+            errors.push(
+                Diagnostic::new(Code::PlantInputAmbiguous, span, message)
+                    .help("let one connected net hold all places that give this input a value"),
+            );
+        }
+    }
+    if errors.is_empty() { Ok(components) } else { Err(errors) }
+}
+
+fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Meaning, Diagnostic> {
+    let (name, span) = (&file.net.place(place).name, file.place_span(place));
+    let unfit = |message: String| Diagnostic::new(Code::PlantVariableUnfit, span, message);
+    let assignments = match valuation::parse(name) {
+        None => return Ok(Meaning::Own(Vec::new())),
+        Some(Ok(assignments)) => assignments,
+        Some(Err(piece)) => {
+            let message = format!("`{piece}` gives no input or output a value");
+            return Err(unfit(message).help("name the place like `S1=1,O1=0`, or without `=` if it is internal"));
+        }
+    };
+    let mut values: Vec<(VarId, bool)> = Vec::new();
+    for (written, value) in assignments {
+        let visible = || program.with_role(Role::Input).chain(program.with_role(Role::Output));
+        let Some(variable) = program.find(written) else {
+            let message = format!("the program `{}` has no input or output `{written}`", program.name);
+            let names = visible().map(|id| program.variable(id).name.as_str());
+            return Err(Diagnostic::new(Code::PlantVariableUnknown, span, message).suggest(written, names));
+        };
+        if values.iter().any(|&(earlier, _)| earlier == variable) {
+            return Err(unfit(format!("`{written}` stands twice in one place name")));
+        }
+        let role = program.variable(variable).role;
+        if !matches!(role, Role::Input | Role::Output) {
+            let message = format!("`{written}` is neither an input nor an output of the program");
+            return Err(
+                unfit(message).help("a plant drives inputs and reads outputs; it cannot see inside the program")
+            );
+        }
+        if values.first().is_some_and(|&(first, _)| program.variable(first).role != role) {
+            let message = "a place cannot stand for inputs and outputs at once".to_owned();
+            return Err(unfit(message).help("give the inputs a place, and read the outputs by another"));
+        }
+        values.push((variable, value));
+    }
+    match values.first() {
+        Some(&(first, _)) if program.variable(first).role == Role::Output => Ok(Meaning::Test(values)),
+        _ => Ok(Meaning::Own(values)),
+    }
+}
+
+/// The connected components, each with the net's places it is made of. Outputs connect nothing.
+fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> Vec<(Component, Vec<PlaceId>)> {
+    let net = &file.net;
+    let offset = net.places().len();
+    let is_own = |place: &PlaceId| matches!(meanings[place.index()], Meaning::Own(_));
+    let mut classes = UnionFind::new(offset + net.transitions().len());
+    for id in net.transition_ids() {
+        let Arcs { consume, produce, read } = &net.transition(id).arcs;
+        for place in consume.iter().chain(produce).chain(read).filter(|place| is_own(place)) {
+            classes.union(place.index(), offset + id.index());
+        }
+        if let Some(&written) = consume.iter().chain(produce).find(|place| !is_own(place)) {
+            let message = format!("the transition `{}` changes an output of the program", net.transition(id).name);
+            errors.push(
+                Diagnostic::new(Code::PlantWritesProgram, file.transition_span(id), message)
+                    .also(file.place_span(written), "this place stands for the program's output")
+                    .help("only read it: in TINA's format with `?1`, in PNML with a loop"),
+            );
+        }
+    }
+    // Components in the order of their first place; a transition without places of the plant is one of its own.
+    let mut components: Vec<(Vec<PlaceId>, Vec<TransitionId>)> = Vec::new();
+    let mut component_of = BTreeMap::new();
+    let mut member = |node: usize, components: &mut Vec<_>| -> usize {
+        *component_of.entry(classes.find(node)).or_insert_with(|| {
+            components.push(Default::default());
+            components.len() - 1
+        })
+    };
+    // Position of each place in its component.
+    let mut position = vec![0; offset];
+    for place in net.place_ids().filter(is_own) {
+        let component = member(place.index(), &mut components);
+        position[place.index()] = components[component].0.len();
+        components[component].0.push(place);
+    }
+    for id in net.transition_ids() {
+        let component = member(offset + id.index(), &mut components);
+        components[component].1.push(id);
+    }
+    let several = components.len() > 1;
+    let qualified = |name: &str| format!("{}.{name}", net.name());
+    let positions =
+        |list: &[PlaceId]| list.iter().filter(|place| is_own(place)).map(|place| position[place.index()]).collect();
+    let place = |&id: &PlaceId| PlantPlace {
+        name: qualified(&net.place(id).name),
+        marked: net.place(id).marked,
+        drives: meanings[id.index()].values().to_vec(),
+    };
+    let transition = |&id: &TransitionId| {
+        let Arcs { consume, produce, read } = &net.transition(id).arcs;
+        let tests = read.iter().filter(|place| !is_own(place)).flat_map(|place| meanings[place.index()].values());
+        PlantTransition {
+            name: qualified(&net.transition(id).name),
+            consume: positions(consume),
+            produce: positions(produce),
+            read: positions(read),
+            tests: tests.copied().collect(),
+        }
+    };
+    (components.into_iter().enumerate())
+        .map(|(i, (places, transitions))| {
+            let component = Component {
+                name: if several { format!("{}.{}", net.name(), i + 1) } else { net.name().to_owned() },
+                places: places.iter().map(place).collect(),
+                transitions: transitions.iter().map(transition).collect(),
+                markings: Vec::new(),
+            };
+            (component, places)
+        })
+        .collect()
+}
