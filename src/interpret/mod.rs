@@ -59,6 +59,12 @@ impl<'p> Machine<'p> {
         self.memory[variable.0] = value;
     }
 
+    /// Gives every variable a value at once; the current result becomes 0.
+    pub fn restore(&mut self, memory: &[bool]) {
+        self.memory.copy_from_slice(memory);
+        self.result = false;
+    }
+
     /// Whether the scan has ended.
     #[must_use]
     pub fn at_end(&self) -> bool {

@@ -30,7 +30,7 @@ impl Builder {
     /// Adds a place.
     pub fn place(&mut self, name: impl Into<String>, marked: bool) -> PlaceId {
         self.net.places.push(Place { name: name.into(), marked });
-        PlaceId(self.net.places.len() as u32 - 1)
+        PlaceId::at(self.net.places.len() - 1)
     }
 
     /// Adds a transition. A place it both takes from and puts to becomes a place it reads; a place it reads and also
@@ -47,7 +47,7 @@ impl Builder {
             list.dedup();
         }
         self.net.transitions.push(Transition { name: name.into(), arcs: Arcs { consume, produce, read } });
-        TransitionId(self.net.transitions.len() as u32 - 1)
+        TransitionId::at(self.net.transitions.len() - 1)
     }
 
     /// The finished net.

@@ -19,7 +19,7 @@ impl Marking {
 
     /// The marked places, in ascending order.
     pub fn marked(&self) -> impl Iterator<Item = PlaceId> {
-        self.0.ones().map(|place| PlaceId(place as u32))
+        self.0.ones().map(PlaceId::at)
     }
 }
 

@@ -35,6 +35,12 @@ pub struct PlaceId(u32);
 pub struct TransitionId(u32);
 
 impl PlaceId {
+    /// The place at a position, which must be one of the net's.
+    #[must_use]
+    pub fn at(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The position, from 0.
     #[must_use]
     pub fn index(self) -> usize {
@@ -43,6 +49,12 @@ impl PlaceId {
 }
 
 impl TransitionId {
+    /// The transition at a position, which must be one of the net's.
+    #[must_use]
+    pub fn at(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The position, from 0.
     #[must_use]
     pub fn index(self) -> usize {
@@ -98,12 +110,12 @@ impl Net {
 
     /// The ids of all places.
     pub fn place_ids(&self) -> impl Iterator<Item = PlaceId> + Clone + use<> {
-        (0..self.places.len() as u32).map(PlaceId)
+        (0..self.places.len()).map(PlaceId::at)
     }
 
     /// The ids of all transitions.
     pub fn transition_ids(&self) -> impl Iterator<Item = TransitionId> + Clone + use<> {
-        (0..self.transitions.len() as u32).map(TransitionId)
+        (0..self.transitions.len()).map(TransitionId::at)
     }
 
     /// A place.

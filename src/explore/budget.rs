@@ -1,0 +1,58 @@
+//! How far a search may go, how far it is, and why it stopped.
+
+use std::fmt;
+
+/// What a search may use. It stops at the first limit and keeps what it has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// States kept.
+    pub states: u64,
+    /// Bytes for states, steps and index.
+    pub bytes: u64,
+}
+
+impl Default for Budget {
+    /// A hundred million states, eight gibibytes.
+    fn default() -> Self {
+        Self { states: 100_000_000, bytes: 8 << 30 }
+    }
+}
+
+/// The figures of a search under way.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Progress {
+    /// States found.
+    pub states: u64,
+    /// Of these, states whose steps are all known.
+    pub expanded: u64,
+    /// Steps found.
+    pub steps: u64,
+    /// Length of a shortest way to the states being expanded, in steps from an initial state.
+    pub depth: usize,
+    /// Bytes in use.
+    pub bytes: u64,
+}
+
+/// Why a search ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// There is nothing left to find.
+    Complete,
+    /// The limit of states was reached.
+    States(u64),
+    /// The limit of memory was reached.
+    Bytes(u64),
+    /// Whoever watched the search stopped it, for this reason.
+    Watcher(String),
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Complete => write!(f, "every state was explored"),
+            Self::States(limit) => write!(f, "the limit of {limit} states was reached"),
+            Self::Bytes(limit) => write!(f, "the limit of {} MiB was reached", limit >> 20),
+            Self::Watcher(reason) => write!(f, "{reason}"),
+        }
+    }
+}

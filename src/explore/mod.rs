@@ -1,0 +1,21 @@
+//! Reachable states: a seam ([`StateSpace`]), a packed store, a breadth-first search, and the graph it leaves.
+//!
+//! Two spaces are made from a system: [`MarkingSpace`], where every firing is a step (the transition view), and
+//! [`ScanSpace`], where a step is one scan (the scan view). The search knows nothing of either.
+
+mod budget;
+mod components;
+mod graph;
+mod marking_space;
+mod scan_space;
+mod search;
+mod space;
+mod store;
+
+pub use budget::{Budget, Progress, Stop};
+pub use components::{Components, components};
+pub use graph::Graph;
+pub use marking_space::MarkingSpace;
+pub use scan_space::{ScanSpace, ScanState};
+pub use search::explore;
+pub use space::{Failure, StateSpace, Step};

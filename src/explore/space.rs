@@ -1,0 +1,44 @@
+//! The seam between what has states and what explores them.
+
+use crate::interpret::Fault;
+use crate::net::PlaceId;
+
+/// A system as states and steps. A state is a vector of `u64` words, of the same length for all states.
+///
+/// Successors depend on nothing but the state, and come in the same order whenever asked for. Implementations are shared
+/// between threads.
+pub trait StateSpace: Sync {
+    /// Length of a state in words.
+    fn words(&self) -> usize;
+
+    /// Calls `visit` for each initial state.
+    fn initial(&self, visit: &mut dyn FnMut(Step<'_>));
+
+    /// Calls `visit` for each step out of a state.
+    fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>));
+
+    /// About how many steps leave a state. A space whose steps are counted in millions says so here, so that the search
+    /// can give up before it begins; the initial states are meant by `None`.
+    fn fan_out(&self, state: Option<&[u64]>) -> u64 {
+        let _ = state;
+        8
+    }
+}
+
+/// One step.
+#[derive(Clone, Copy, Debug)]
+pub enum Step<'a> {
+    /// It leads to this state. The words are only valid during the call.
+    To(&'a [u64]),
+    /// It leads nowhere: something that must not happen does.
+    Fails(Failure),
+}
+
+/// Why a step has no state behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// A scan does not end.
+    Scan(Fault),
+    /// A firing puts a second token on a place.
+    NotSafe(PlaceId),
+}
