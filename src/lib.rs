@@ -5,6 +5,7 @@ pub mod diagnostic;
 pub mod explore;
 pub mod flat;
 pub mod interpret;
+pub mod logic;
 pub mod net;
 pub mod semantics;
 pub mod source;

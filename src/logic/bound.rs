@@ -1,0 +1,124 @@
+//! Formulas whose names mean something: variables, places, transitions.
+
+use super::formula::{Comparison, Quantifier};
+use crate::net::{PlaceId, TransitionId};
+use crate::semantics::VarId;
+
+/// A formula over the states of one view. `F` and `G` are written as untils: `F g` = `TRUE U g`, `G f` = `f W FALSE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// A constant.
+    Truth(bool),
+    /// The variable is TRUE.
+    Variable(VarId),
+    /// The place is marked.
+    Marked(PlaceId),
+    /// The transition is enabled.
+    Enabled(TransitionId),
+    /// Two numbers compare so.
+    Compare(Comparison, Term, Term),
+    /// Negation.
+    Not(Box<Bound>),
+    /// Conjunction.
+    And(Box<Bound>, Box<Bound>),
+    /// Disjunction.
+    Or(Box<Bound>, Box<Bound>),
+    /// Implication.
+    Implies(Box<Bound>, Box<Bound>),
+    /// Equivalence.
+    Iff(Box<Bound>, Box<Bound>),
+    /// In the next state, on all paths or on some.
+    Next(Quantifier, Box<Bound>),
+    /// The first holds until the second does, on all paths or on some.
+    Until {
+        /// On all paths or on some.
+        quantifier: Quantifier,
+        /// The second need not come if the first holds for ever.
+        weak: bool,
+        /// The first.
+        hold: Box<Bound>,
+        /// The second.
+        release: Box<Bound>,
+    },
+}
+
+/// A number that depends on the state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Term {
+    /// A constant.
+    Number(i128),
+    /// 1 if the formula, which is not temporal, holds; else 0.
+    Truth(Box<Bound>),
+    /// Sum.
+    Sum(Box<Term>, Box<Term>),
+    /// Difference.
+    Difference(Box<Term>, Box<Term>),
+    /// Product.
+    Product(Box<Term>, Box<Term>),
+}
+
+/// What a state says of the atoms.
+pub trait Valuation {
+    /// Whether a variable is TRUE.
+    fn variable(&self, variable: VarId) -> bool;
+    /// Whether a place is marked.
+    fn is_marked(&self, place: PlaceId) -> bool;
+    /// Whether a transition is enabled.
+    fn is_enabled(&self, transition: TransitionId) -> bool;
+}
+
+impl Bound {
+    /// Whether it speaks of one state only.
+    #[must_use]
+    pub fn is_state_formula(&self) -> bool {
+        match self {
+            Self::Truth(_) | Self::Variable(_) | Self::Marked(_) | Self::Enabled(_) | Self::Compare(..) => true,
+            Self::Not(f) => f.is_state_formula(),
+            Self::And(f, g) | Self::Or(f, g) | Self::Implies(f, g) | Self::Iff(f, g) => {
+                f.is_state_formula() && g.is_state_formula()
+            }
+            Self::Next(..) | Self::Until { .. } => false,
+        }
+    }
+
+    /// Whether it holds in a state. `None` if it is temporal, so that one state does not tell.
+    pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
+        Some(match self {
+            Self::Truth(value) => *value,
+            Self::Variable(variable) => state.variable(*variable),
+            Self::Marked(place) => state.is_marked(*place),
+            Self::Enabled(transition) => state.is_enabled(*transition),
+            Self::Compare(comparison, left, right) => comparison.holds(left.value_in(state)?, right.value_in(state)?),
+            Self::Not(f) => !f.holds_in(state)?,
+            Self::And(f, g) => f.holds_in(state)? & g.holds_in(state)?,
+            Self::Or(f, g) => f.holds_in(state)? | g.holds_in(state)?,
+            Self::Implies(f, g) => !f.holds_in(state)? | g.holds_in(state)?,
+            Self::Iff(f, g) => f.holds_in(state)? == g.holds_in(state)?,
+            Self::Next(..) | Self::Until { .. } => return None,
+        })
+    }
+}
+
+impl Term {
+    fn value_in(&self, state: &impl Valuation) -> Option<i128> {
+        Some(match self {
+            Self::Number(number) => *number,
+            Self::Truth(f) => i128::from(f.holds_in(state)?),
+            Self::Sum(a, b) => a.value_in(state)? + b.value_in(state)?,
+            Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
+            Self::Product(a, b) => a.value_in(state)? * b.value_in(state)?,
+        })
+    }
+
+    /// A bound of its absolute value; `None` if it is beyond what `i128` holds, with room for one more operation.
+    #[must_use]
+    pub fn magnitude(&self) -> Option<u128> {
+        let sum = match self {
+            Self::Number(number) => Some(number.unsigned_abs()),
+            Self::Truth(_) => Some(1),
+            Self::Sum(a, b) | Self::Difference(a, b) => a.magnitude()?.checked_add(b.magnitude()?),
+            Self::Product(a, b) => a.magnitude()?.checked_mul(b.magnitude()?),
+        };
+        sum.filter(|&magnitude| magnitude < 1 << 126)
+    }
+}

@@ -1,0 +1,122 @@
+//! Formulas as they are written, before their names mean anything.
+
+use crate::source::Span;
+
+/// A formula or a part of one, and where it stands.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// What it says.
+    pub expression: Expression,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What a formula says. Truth values and numbers are not told apart yet.
+#[derive(Clone, Debug)]
+pub enum Expression {
+    /// `TRUE`, `FALSE`
+    Truth(bool),
+    /// A number.
+    Number(i64),
+    /// A variable.
+    Name(String),
+    /// `at line 12`, the line counted from 1 as `petril flat` prints it.
+    AtLine(usize),
+    /// `at idle`
+    AtIdle,
+    /// `at End`
+    AtEnd,
+    /// `marked("place")`
+    Marked(String),
+    /// `enabled("transition")`
+    Enabled(String),
+    /// `!f`
+    Not(Box<Formula>),
+    /// `f & g`
+    And(Box<Formula>, Box<Formula>),
+    /// `f | g`
+    Or(Box<Formula>, Box<Formula>),
+    /// `f -> g`
+    Implies(Box<Formula>, Box<Formula>),
+    /// `f <-> g`
+    Iff(Box<Formula>, Box<Formula>),
+    /// `a < b` and its like.
+    Compare(Comparison, Box<Formula>, Box<Formula>),
+    /// `a + b`
+    Sum(Box<Formula>, Box<Formula>),
+    /// `a - b`
+    Difference(Box<Formula>, Box<Formula>),
+    /// `a * b`
+    Product(Box<Formula>, Box<Formula>),
+    /// `AG f` and its like.
+    Temporal(Quantifier, Temporal, Box<Formula>),
+    /// `A[f U g]`, `E[f U g]`, and with W if `weak`.
+    Until {
+        /// On all paths or on some.
+        quantifier: Quantifier,
+        /// g need not come if f holds for ever.
+        weak: bool,
+        /// f
+        hold: Box<Formula>,
+        /// g
+        release: Box<Formula>,
+    },
+}
+
+/// On all paths, or on some path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantifier {
+    /// A
+    All,
+    /// E
+    Some,
+}
+
+impl Quantifier {
+    /// The other one.
+    #[must_use]
+    pub fn dual(self) -> Self {
+        match self {
+            Self::All => Self::Some,
+            Self::Some => Self::All,
+        }
+    }
+}
+
+/// When along a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Temporal {
+    /// X: in the next state.
+    Next,
+    /// F: in this state or a later one.
+    Finally,
+    /// G: in this state and all later ones.
+    Globally,
+}
+
+/// The comparisons of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "named by their signs")]
+pub enum Comparison {
+    Equal,
+    Unequal,
+    Less,
+    AtMost,
+    Greater,
+    AtLeast,
+}
+
+impl Comparison {
+    /// Whether two numbers compare so.
+    #[must_use]
+    pub fn holds(self, left: i128, right: i128) -> bool {
+        match self {
+            Self::Equal => left == right,
+            Self::Unequal => left != right,
+            Self::Less => left < right,
+            Self::AtMost => left <= right,
+            Self::Greater => left > right,
+            Self::AtLeast => left >= right,
+        }
+    }
+}

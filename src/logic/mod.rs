@@ -1,0 +1,23 @@
+//! Requirements: CTL formulas over program variables, or over places and transitions, and their truth on a graph.
+//!
+//! ```text
+//! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
+//! ```
+
+mod bind;
+mod bound;
+mod dag;
+mod evidence;
+mod formula;
+mod label;
+mod parse;
+mod vacuity;
+
+pub use bind::{View, bind};
+pub use bound::{Bound, Term, Valuation};
+pub use dag::{Dag, Node, NodeId};
+pub use evidence::{Claim, Evidence, evidence};
+pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+pub use label::{Labels, label};
+pub use parse::{Requirement, parse_formula, parse_requirements};
+pub use vacuity::vacuous_premise;

@@ -1,0 +1,296 @@
+//! Requirement files and single formulas: text to [`Formula`].
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use pest::Parser;
+use pest::error::{ErrorVariant, InputLocation};
+use pest::iterators::{Pair, Pairs};
+use pest::pratt_parser::{Assoc, Op, PrattParser};
+use pest_derive::Parser;
+
+use super::formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{Source, Span};
+use crate::syntax::ast::key;
+
+#[derive(Parser)]
+#[grammar = "../grammar/requirement.pest"]
+struct RequirementParser;
+
+/// A formula may have this many parts. Those people write have tens; the limit keeps all that walks them within its stack.
+const MAX_PARTS: usize = 1000;
+
+/// A requirement as it was written.
+#[derive(Clone, Debug)]
+pub struct Requirement {
+    /// Its name, unique among those checked together.
+    pub name: String,
+    /// What it says in words.
+    pub sentence: Option<String>,
+    /// The formula.
+    pub formula: Formula,
+    /// The formula as it was written, on one line.
+    pub text: String,
+    /// Where its name stands, or the formula if it has none.
+    pub span: Span,
+}
+
+/// Reads a text that is one formula, which becomes the requirement of that name.
+///
+/// # Errors
+/// What keeps the text from being a formula.
+pub fn parse_formula(name: &str, source: &Source) -> Result<Requirement, Diagnostic> {
+    let text = source.text();
+    let pairs = RequirementParser::parse(Rule::lone_formula, text).map_err(|error| diagnostic(&error, text, 0))?;
+    let mut formulas = pairs.flatten().filter(|pair| pair.as_rule() == Rule::formula);
+    let Some(pair) = formulas.next() else {
+        return Err(Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"));
+    };
+    let (span, text) = (span(&pair), one_line(pair.as_str()));
+    Ok(Requirement { name: name.to_owned(), sentence: None, formula: checked_formula(pair)?, text, span })
+}
+
+/// Reads a requirement file: the requirements that can be read, and every error.
+#[must_use]
+pub fn parse_requirements(source: &Source) -> (Vec<Requirement>, Vec<Diagnostic>) {
+    let text = source.text();
+    let mut requirements: Vec<Requirement> = Vec::new();
+    let mut diagnostics = Vec::new();
+    let mut names: BTreeMap<String, Span> = BTreeMap::new();
+    let pairs = match RequirementParser::parse(Rule::file, text) {
+        Ok(pairs) => pairs.flat_map(Pair::into_inner),
+        Err(error) => return (requirements, vec![diagnostic(&error, text, 0)]),
+    };
+    for pair in pairs {
+        match pair.as_rule() {
+            Rule::requirement => match requirement(pair) {
+                Ok(requirement) => {
+                    let first = *names.entry(key(&requirement.name)).or_insert(requirement.span);
+                    if first != requirement.span {
+                        let message = format!("there are two requirements named `{}`", requirement.name);
+                        diagnostics.push(
+                            Diagnostic::new(Code::RequirementNameTwice, requirement.span, message)
+                                .also(first, "the first is here"),
+                        );
+                    }
+                    requirements.push(requirement);
+                }
+                Err(error) => diagnostics.push(error),
+            },
+            Rule::bad => diagnostics.push(explain(&pair)),
+            _ => {}
+        }
+    }
+    if requirements.is_empty() && diagnostics.is_empty() {
+        let message = "this file holds no requirement";
+        let help = "write one like `requirement name \"what it says\": AG (a -> b);`";
+        diagnostics.push(Diagnostic::new(Code::RequirementSyntax, Span::default(), message).help(help));
+    }
+    (requirements, diagnostics)
+}
+
+fn requirement(pair: Pair<'_, Rule>) -> Result<Requirement, Diagnostic> {
+    let fallback = span(&pair);
+    let (mut name, mut sentence, mut formula) = ((String::new(), fallback), None, None);
+    for piece in pair.into_inner() {
+        match piece.as_rule() {
+            Rule::identifier => name = (piece.as_str().to_owned(), span(&piece)),
+            Rule::sentence => sentence = Some(piece.as_str().trim_matches('"').to_owned()),
+            Rule::formula => formula = Some((one_line(piece.as_str()), checked_formula(piece)?)),
+            _ => {}
+        }
+    }
+    let (name, span) = name;
+    match formula {
+        Some((text, formula)) => Ok(Requirement { name, sentence, formula, text, span }),
+        None => Err(Diagnostic::new(Code::RequirementSyntax, span, "this requirement has no formula")),
+    }
+}
+
+/// The formula of a pair of the rule `formula`, unless it is too large.
+fn checked_formula(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
+    if pair.clone().into_inner().flatten().take(MAX_PARTS + 1).count() > MAX_PARTS {
+        let message = format!("this formula has more than {MAX_PARTS} parts");
+        let help = "split it into several requirements";
+        return Err(Diagnostic::new(Code::RequirementSyntax, span(&pair), message).help(help));
+    }
+    formula(pair.into_inner())
+}
+
+static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
+    let left = |rule| Op::infix(rule, Assoc::Left);
+    PrattParser::new()
+        .op(left(Rule::iff))
+        .op(Op::infix(Rule::implies, Assoc::Right))
+        .op(left(Rule::or))
+        .op(left(Rule::and))
+        .op(left(Rule::equal)
+            | left(Rule::unequal)
+            | left(Rule::less)
+            | left(Rule::at_most)
+            | left(Rule::greater)
+            | left(Rule::at_least))
+        .op(left(Rule::plus) | left(Rule::minus))
+        .op(left(Rule::times))
+        .op(Op::prefix(Rule::not) | Op::prefix(Rule::temporal))
+});
+
+fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
+    PRATT
+        .map_primary(primary)
+        .map_prefix(|operator, operand| {
+            let operand = operand?;
+            let span = span(&operator).to(operand.span);
+            let operand = Box::new(operand);
+            let expression = match (operator.as_rule(), operator.as_str().as_bytes()) {
+                (Rule::temporal, &[quantifier, temporal]) => {
+                    Expression::Temporal(self::quantifier(quantifier), self::temporal(temporal), operand)
+                }
+                _ => Expression::Not(operand),
+            };
+            Ok(Formula { expression, span })
+        })
+        .map_infix(|left, operator, right| {
+            let (left, right) = (left?, right?);
+            let span = left.span.to(right.span);
+            let (left, right) = (Box::new(left), Box::new(right));
+            let compare = |comparison, left, right| Expression::Compare(comparison, left, right);
+            let expression = match operator.as_rule() {
+                Rule::iff => Expression::Iff(left, right),
+                Rule::implies => Expression::Implies(left, right),
+                Rule::or => Expression::Or(left, right),
+                Rule::and => Expression::And(left, right),
+                Rule::plus => Expression::Sum(left, right),
+                Rule::minus => Expression::Difference(left, right),
+                Rule::times => Expression::Product(left, right),
+                Rule::unequal => compare(Comparison::Unequal, left, right),
+                Rule::less => compare(Comparison::Less, left, right),
+                Rule::at_most => compare(Comparison::AtMost, left, right),
+                Rule::greater => compare(Comparison::Greater, left, right),
+                Rule::at_least => compare(Comparison::AtLeast, left, right),
+                _ => compare(Comparison::Equal, left, right),
+            };
+            Ok(Formula { expression, span })
+        })
+        .parse(pairs)
+}
+
+fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
+    let span = span(&pair);
+    let text = pair.as_str();
+    let too_large = || {
+        Diagnostic::new(Code::RequirementSyntax, span, "this number is too large").help("numbers have up to 64 bits")
+    };
+    let expression = match pair.as_rule() {
+        Rule::group => return pair.into_inner().next().map_or_else(|| Err(too_large()), |p| formula(p.into_inner())),
+        Rule::number => Expression::Number(text.parse().map_err(|_| too_large())?),
+        Rule::truth => Expression::Truth(text.eq_ignore_ascii_case("TRUE")),
+        Rule::until => return until(pair),
+        Rule::position => match pair.into_inner().last() {
+            Some(line) if line.as_rule() == Rule::line => {
+                Expression::AtLine(line.as_str().parse().map_err(|_| too_large())?)
+            }
+            Some(spot) if spot.as_str().eq_ignore_ascii_case("idle") => Expression::AtIdle,
+            _ => Expression::AtEnd,
+        },
+        rule @ (Rule::marked | Rule::enabled) => {
+            let quoted = pair.into_inner().next().map(|p| p.as_str().trim_matches('"').to_owned()).unwrap_or_default();
+            if rule == Rule::marked { Expression::Marked(quoted) } else { Expression::Enabled(quoted) }
+        }
+        _ => Expression::Name(text.to_owned()),
+    };
+    Ok(Formula { expression, span })
+}
+
+fn until(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
+    let span = span(&pair);
+    let (mut all, mut weak, mut formulas) = (Quantifier::All, false, Vec::new());
+    for piece in pair.into_inner() {
+        match piece.as_rule() {
+            Rule::quantifier => all = quantifier(piece.as_str().as_bytes()[0]),
+            Rule::until_operator => weak = piece.as_str() == "W",
+            _ => formulas.push(formula(piece.into_inner())?),
+        }
+    }
+    match <[Formula; 2]>::try_from(formulas) {
+        Ok([hold, release]) => {
+            let (hold, release) = (Box::new(hold), Box::new(release));
+            Ok(Formula { expression: Expression::Until { quantifier: all, weak, hold, release }, span })
+        }
+        Err(_) => Err(Diagnostic::new(Code::RequirementSyntax, span, "expected `A [f U g]`")),
+    }
+}
+
+fn quantifier(letter: u8) -> Quantifier {
+    if letter == b'A' { Quantifier::All } else { Quantifier::Some }
+}
+
+fn temporal(letter: u8) -> Temporal {
+    match letter {
+        b'X' => Temporal::Next,
+        b'F' => Temporal::Finally,
+        _ => Temporal::Globally,
+    }
+}
+
+fn span(pair: &Pair<'_, Rule>) -> Span {
+    let start = pair.as_span().start();
+    Span::new(start, start + pair.as_str().trim_end().len())
+}
+
+/// The text with every run of white space as one blank.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Reads a piece that is no requirement as one, to say why it is none.
+fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
+    let (text, start) = (pair.as_str(), pair.as_span().start());
+    let help = "write it like `requirement name \"what it says\": AG (a -> b);`";
+    match RequirementParser::parse(Rule::lone_requirement, text) {
+        Err(error) => diagnostic(&error, text, start).help(help),
+        Ok(_) => Diagnostic::new(Code::RequirementSyntax, span(pair), "this cannot stand here").help(help),
+    }
+}
+
+fn diagnostic(error: &pest::error::Error<Rule>, text: &str, start: usize) -> Diagnostic {
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
+    };
+    let word: &str = text[at..].split_whitespace().next().unwrap_or("");
+    let found = if word.is_empty() { "the end".to_owned() } else { format!("`{word}`") };
+    let span = Span::new(start + at, start + at + word.len());
+    let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
+        return Diagnostic::new(Code::RequirementSyntax, span, error.variant.message());
+    };
+    let mut names: Vec<&str> = positives.iter().filter_map(|&rule| expected(rule)).collect();
+    names.sort_unstable();
+    names.dedup();
+    let message = match names.split_last() {
+        None => format!("{found} cannot stand here"),
+        Some((last, [])) => format!("expected {last}, found {found}"),
+        Some((last, others)) => format!("expected {} or {last}, found {found}", others.join(", ")),
+    };
+    Diagnostic::new(Code::RequirementSyntax, span, message)
+}
+
+fn expected(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
+        Rule::EOI => "the end",
+        Rule::keyword => "`requirement`",
+        Rule::identifier => "a name",
+        Rule::sentence | Rule::quoted => "a text in quotes",
+        Rule::colon => "`:`",
+        Rule::semicolon => "`;`",
+        Rule::formula | Rule::name | Rule::group | Rule::number => "a formula",
+        Rule::and | Rule::implies | Rule::equal | Rule::plus => "an operator",
+        Rule::until_operator => "`U` or `W`",
+        Rule::line => "a line number",
+        Rule::spot => "`line`, `idle` or `End`",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! Formulas are read with the binding the language gives them.
+
+use super::*;
+
+/// The formula with all its parentheses.
+fn explicit(formula: &Formula) -> String {
+    let two = |f: &Formula, sign: &str, g: &Formula| format!("({} {sign} {})", explicit(f), explicit(g));
+    match &formula.expression {
+        Expression::Truth(value) => value.to_string(),
+        Expression::Number(number) => number.to_string(),
+        Expression::Name(name) => name.clone(),
+        Expression::AtLine(line) => format!("at {line}"),
+        Expression::AtIdle => "at idle".to_owned(),
+        Expression::AtEnd => "at End".to_owned(),
+        Expression::Marked(name) => format!("<{name}>"),
+        Expression::Enabled(name) => format!("<<{name}>>"),
+        Expression::Not(f) => format!("!{}", explicit(f)),
+        Expression::And(f, g) => two(f, "&", g),
+        Expression::Or(f, g) => two(f, "|", g),
+        Expression::Implies(f, g) => two(f, "->", g),
+        Expression::Iff(f, g) => two(f, "<->", g),
+        Expression::Compare(comparison, f, g) => two(f, &format!("{comparison:?}"), g),
+        Expression::Sum(f, g) => two(f, "+", g),
+        Expression::Difference(f, g) => two(f, "-", g),
+        Expression::Product(f, g) => two(f, "*", g),
+        Expression::Temporal(q, t, f) => format!("{q:?} {t:?} {}", explicit(f)),
+        Expression::Until { quantifier, weak, hold, release } => {
+            format!("{quantifier:?}[{} {} {}]", explicit(hold), if *weak { "W" } else { "U" }, explicit(release))
+        }
+    }
+}
+
+fn read(text: &str) -> String {
+    match parse_formula("r", &Source::new("formula", text)) {
+        Ok(requirement) => explicit(&requirement.formula),
+        Err(error) => error.message,
+    }
+}
+
+#[test]
+fn operators_bind_as_the_language_says() {
+    let cases = [
+        ("a -> b -> c", "(a -> (b -> c))"),
+        ("a | b & c", "(a | (b & c))"),
+        ("a <-> b -> c", "(a <-> (b -> c))"),
+        ("!a & b", "(!a & b)"),
+        ("AG a -> b", "(All Globally a -> b)"),
+        ("AG EF !a | b", "(All Globally Some Finally !a | b)"),
+        ("a + b * 2 = 3 & c", "(((a + (b * 2)) Equal 3) & c)"),
+        ("a - b - 1 <= -1", "(((a - b) - 1) AtMost -1)"),
+        ("a<-1", "(a Less -1)"),
+        ("a <> b", "(a Unequal b)"),
+        ("A [a U b | c]", "All[a U (b | c)]"),
+        ("E[a W E [b U c]]", "Some[a W Some[b U c]]"),
+        ("AX(a)", "All Next a"),
+        ("AX & EG = AG", "(AX & (EG Equal AG))"),
+        ("A = 1 & E | U", "(((A Equal 1) & E) | U)"),
+        ("at line 3 -> at idle | at END", "(at 3 -> (at idle | at End))"),
+        ("marked(\"S1=1\") & enabled( \"block\" )", "(<S1=1> & <<block>>)"),
+        ("true & pump.T.Q (* comment *) // more", "(true & pump.T.Q)"),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(read(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn what_is_no_formula_is_explained() {
+    let cases = [
+        ("", "expected a formula, found the end"),
+        ("a b", "expected an operator or the end, found `b`"),
+        ("A [a b]", "expected `U` or `W` or an operator, found `b]`"),
+        ("a & ", "expected a formula, found the end"),
+        ("a = 99999999999999999999", "this number is too large"),
+        ("(a", "expected an operator, found the end"),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(read(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn huge_formulas_are_refused_and_large_ones_are_not() {
+    let nested = |n: usize| format!("{}a{}", "(".repeat(n), ")".repeat(n));
+    assert_eq!(read(&nested(200)), "a");
+    for text in
+        [nested(100_000), "!".repeat(100_000) + "a", "a & ".repeat(100_000) + "a", "a -> ".repeat(100_000) + "a"]
+    {
+        assert!(parse_formula("r", &Source::new("formula", text)).is_err());
+    }
+    assert!(read(&("a & ".repeat(300) + "a")).starts_with("(((("));
+}
+
+#[test]
+fn a_file_gives_its_requirements_and_all_its_errors() {
+    let text = "// first\nrequirement one \"it says; this\": AG a;\nrequirement two: a &;\nrequire three: b;\n\
+                requirement One: (* again *) b;\nrequirement four \"x\" c";
+    let (requirements, diagnostics) = parse_requirements(&Source::new("r.req", text));
+    let read: Vec<_> = requirements.iter().map(|r| (r.name.as_str(), r.sentence.as_deref(), r.text.as_str())).collect();
+    assert_eq!(read, [("one", Some("it says; this"), "AG a"), ("One", None, "b")]);
+    let source = Source::new("r.req", text);
+    let errors: Vec<_> = diagnostics.iter().map(|d| (source.line_of(d.span().start), d.message.as_str())).collect();
+    assert_eq!(
+        errors,
+        [
+            (3, "expected a formula, found `;`"),
+            (4, "expected `requirement`, found `require`"),
+            (5, "there are two requirements named `One`"),
+            (6, "expected `:`, found `c`"),
+        ]
+    );
+}
