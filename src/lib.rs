@@ -11,3 +11,5 @@ pub mod semantics;
 pub mod source;
 pub mod syntax;
 pub mod translate;
+pub mod verdict;
+pub mod witness;

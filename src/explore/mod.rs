@@ -3,6 +3,7 @@
 //! Two spaces are made from a system: [`MarkingSpace`], where every firing is a step (the transition view), and
 //! [`ScanSpace`], where a step is one scan (the scan view). The search knows nothing of either.
 
+mod behaviour;
 mod budget;
 mod components;
 mod graph;
@@ -12,6 +13,7 @@ mod search;
 mod space;
 mod store;
 
+pub use behaviour::{Behaviour, behaviour, unsafe_firing};
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
 pub use graph::Graph;

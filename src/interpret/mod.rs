@@ -135,7 +135,9 @@ impl<'p> Machine<'p> {
         Ok(())
     }
 
-    fn same_state(&self, other: &Self) -> bool {
+    /// Whether line, memory and current result are the same.
+    #[must_use]
+    pub fn same_state(&self, other: &Self) -> bool {
         self.line == other.line && self.result == other.result && self.memory == other.memory
     }
 

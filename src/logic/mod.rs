@@ -11,7 +11,9 @@ mod evidence;
 mod formula;
 mod label;
 mod parse;
+mod text;
 mod vacuity;
+mod valuations;
 
 pub use bind::{View, bind};
 pub use bound::{Bound, Term, Valuation};
@@ -21,3 +23,4 @@ pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
 pub use label::{Labels, label};
 pub use parse::{Requirement, parse_formula, parse_requirements};
 pub use vacuity::vacuous_premise;
+pub use valuations::{MarkingValuation, ScanValuation};

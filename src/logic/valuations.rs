@@ -1,0 +1,40 @@
+//! What packed states say of atoms, in both views.
+
+use super::bound::Valuation;
+use crate::explore::{MarkingSpace, ScanSpace};
+use crate::net::{PlaceId, TransitionId};
+use crate::semantics::VarId;
+
+/// A packed scan state. Formulas bound for the scan view speak of variables only.
+pub struct ScanValuation<'a>(pub &'a ScanSpace<'a>, pub &'a [u64]);
+
+impl Valuation for ScanValuation<'_> {
+    fn variable(&self, variable: VarId) -> bool {
+        self.0.value(self.1, variable)
+    }
+
+    fn is_marked(&self, _: PlaceId) -> bool {
+        false
+    }
+
+    fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
+}
+
+/// A packed marking. Formulas bound for the transition view speak of places and transitions only.
+pub struct MarkingValuation<'a>(pub &'a MarkingSpace<'a>, pub &'a [u64]);
+
+impl Valuation for MarkingValuation<'_> {
+    fn variable(&self, _: VarId) -> bool {
+        false
+    }
+
+    fn is_marked(&self, place: PlaceId) -> bool {
+        self.0.is_marked(self.1, place)
+    }
+
+    fn is_enabled(&self, transition: TransitionId) -> bool {
+        self.0.is_enabled(self.1, transition)
+    }
+}

@@ -1,0 +1,153 @@
+//! A system and requirements to a report: one exploration, then every requirement on its graph.
+
+use fixedbitset::FixedBitSet;
+use rayon::prelude::*;
+
+use super::views::{ScanView, SystemView, TransitionView, witness};
+use super::{Answer, Exploration, Outcome, Report, scan_ends};
+use crate::explore::{Budget, Graph, MarkingSpace, Progress, ScanSpace, explore};
+use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label, vacuous_premise};
+use crate::translate::{PlaceRole, System};
+
+/// How to check.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// What a state is.
+    pub view: View,
+    /// In the transition view, leave out runs in which the plant moves for ever and the PLC never scans again.
+    pub fair: bool,
+    /// How far the exploration may go.
+    pub budget: Budget,
+}
+
+/// Explores a system and judges the requirements, which must have been bound for the view. `watch` can end the exploration;
+/// what can be decided on a part of the states is decided then.
+#[must_use]
+pub fn check(
+    system: &System,
+    requirements: &[(Requirement, Bound)],
+    options: Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Report {
+    let scan_view;
+    let transition_view;
+    let view: &dyn SystemView = match options.view {
+        View::Scan => {
+            scan_view = ScanView(ScanSpace::new(system));
+            &scan_view
+        }
+        View::Transition => {
+            transition_view = TransitionView { space: MarkingSpace::new(&system.net), system };
+            &transition_view
+        }
+    };
+    let graph = explore(view.space(), options.budget, watch);
+    let fair = options.fair.then(|| scanning(view, &graph));
+    let judge = Judge { view, graph: &graph, fair: fair.as_ref() };
+    let answers = requirements.par_iter().map(|(requirement, bound)| Answer {
+        name: requirement.name.clone(),
+        sentence: requirement.sentence.clone(),
+        formula: requirement.text.clone(),
+        outcome: judge.outcome(bound),
+    });
+    let answers = answers.collect();
+    let ends = match options.view {
+        View::Scan => scan_ends::on_scans(system, &graph),
+        View::Transition => Judge { fair: None, ..judge }.outcome(&scan_ends::formula(system)),
+    };
+    // The first scan is a step too in the scan view, not in the transition view.
+    let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
+    Report {
+        exploration: Exploration {
+            view: options.view,
+            states: graph.len(),
+            steps: graph.steps(),
+            depth,
+            complete: graph.is_complete(),
+            stop: graph.stop().clone(),
+            bytes: graph.bytes(),
+        },
+        fair: options.fair,
+        answers,
+        checks: vec![scan_ends::answer(ends)],
+    }
+}
+
+/// The states in which the PLC is not idle. From an idle state `block` is always enabled, so leaving out the paths on which it
+/// stays enabled and never fires means to ask for these states again and again.
+fn scanning(view: &dyn SystemView, graph: &Graph) -> FixedBitSet {
+    let idle = Bound::Marked(view.system().place(PlaceRole::Idle));
+    let mut states = FixedBitSet::with_capacity(graph.len());
+    states.extend(graph.ids().filter(|&id| !view.holds(&idle, graph.state(id))).map(|id| id as usize));
+    states
+}
+
+/// Judges formulas on a graph.
+#[derive(Clone, Copy)]
+struct Judge<'a> {
+    view: &'a dyn SystemView,
+    graph: &'a Graph,
+    fair: Option<&'a FixedBitSet>,
+}
+
+impl Judge<'_> {
+    fn outcome(&self, formula: &Bound) -> Outcome {
+        let Self { view, graph, fair } = *self;
+        let mut dag = Dag::default();
+        let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
+        let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
+        let labels = label(graph, &dag, &holds, fair);
+        let shown = |node: NodeId| {
+            let evidence = evidence(graph, &dag, &labels, fair, node, graph.initial())?;
+            Some(witness(view, graph, &dag, &evidence))
+        };
+        match shown(no) {
+            Some(Ok(witness)) => return Outcome::Violated(witness),
+            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
+            None => {}
+        }
+        let everywhere = graph.initial().iter().all(|&state| labels.of(yes).contains(state as usize));
+        if !(everywhere && graph.knows_initial()) {
+            return Outcome::Unknown(reason(graph));
+        }
+        let witness = match is_existential(&dag, yes).then(|| shown(yes)).flatten() {
+            Some(Ok(witness)) => Some(witness),
+            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
+            None => None,
+        };
+        let mut never = |premise: &Bound| graph.is_complete() && self.holds_nowhere(premise);
+        let vacuous = vacuous_premise(formula, &mut never).map(|premise| premise.text(view.system()));
+        Outcome::Holds { vacuous, witness }
+    }
+
+    fn holds_nowhere(&self, formula: &Bound) -> bool {
+        let mut dag = Dag::default();
+        let node = dag.add(formula, false);
+        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
+        label(self.graph, &dag, &holds, self.fair).of(node).is_clear()
+    }
+}
+
+/// Whether a node says that something is possible, so that a path shows it.
+fn is_existential(dag: &Dag, node: NodeId) -> bool {
+    match *dag.node(node) {
+        Node::State { .. } => false,
+        Node::And(f, g) | Node::Or(f, g) => is_existential(dag, f) || is_existential(dag, g),
+        Node::Next(quantifier, _) | Node::Until(quantifier, ..) | Node::WeakUntil(quantifier, ..) => {
+            quantifier == Quantifier::Some
+        }
+    }
+}
+
+/// Why a formula that is neither shown nor refuted is undecided.
+fn reason(graph: &Graph) -> String {
+    if graph.failures().is_empty() {
+        format!("{}; the {} states explored do not decide it", graph.stop(), graph.len())
+    } else {
+        "a scan does not end, so that not every step leads to a state (see the check `scan-ends`)".to_owned()
+    }
+}
+
+fn disagreed(what: &str) -> Outcome {
+    Outcome::Unknown(format!("the replay refutes the search, which is an error in Petril; please report it: {what}"))
+}

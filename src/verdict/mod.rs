@@ -1,0 +1,156 @@
+//! Verdicts: every requirement holds, is violated with a witness, or is undecided for a reason.
+
+mod check;
+mod scan_ends;
+mod views;
+
+pub use check::{Options, check};
+
+use crate::explore::Stop;
+use crate::logic::View;
+use crate::witness::{FiringTrace, ScanTrace};
+
+/// What is known about a requirement.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// It holds.
+    Holds {
+        /// The premise that no reachable state satisfies, so that the requirement says nothing.
+        vacuous: Option<String>,
+        /// For a requirement that something is possible, a way there.
+        witness: Option<Witness>,
+    },
+    /// It does not hold.
+    Violated(Witness),
+    /// Nothing is known, for this reason.
+    Unknown(String),
+}
+
+/// The three verdicts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// It holds.
+    Holds,
+    /// Nothing is known.
+    Unknown,
+    /// It does not hold.
+    Violated,
+}
+
+impl Verdict {
+    /// The verdict in one word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Unknown => "unknown",
+            Self::Violated => "violated",
+        }
+    }
+}
+
+impl Outcome {
+    /// The verdict without its reasons.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Self::Holds { .. } => Verdict::Holds,
+            Self::Violated(_) => Verdict::Violated,
+            Self::Unknown(_) => Verdict::Unknown,
+        }
+    }
+
+    /// The run that goes with the verdict.
+    #[must_use]
+    pub fn witness(&self) -> Option<&Witness> {
+        match self {
+            Self::Holds { witness, .. } => witness.as_ref(),
+            Self::Violated(witness) => Some(witness),
+            Self::Unknown(_) => None,
+        }
+    }
+}
+
+/// A run that shows why, replayed on the net and in the interpreter.
+#[derive(Clone, Debug)]
+pub struct Witness {
+    /// The run.
+    pub trace: Trace,
+    /// What it shows, where.
+    pub notes: Vec<Note>,
+}
+
+/// A run in one of the two views.
+#[derive(Clone, Debug)]
+pub enum Trace {
+    /// Scan by scan.
+    Scans(ScanTrace),
+    /// Firing by firing.
+    Firings(FiringTrace),
+}
+
+/// Something that is so during a part of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// First state of the run concerned, from 0.
+    pub first: usize,
+    /// Last state of the run concerned, from 0.
+    pub last: usize,
+    /// What is so.
+    pub text: String,
+}
+
+/// A requirement and its outcome.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Its name.
+    pub name: String,
+    /// What it says in words.
+    pub sentence: Option<String>,
+    /// The formula as it was written.
+    pub formula: String,
+    /// What is known.
+    pub outcome: Outcome,
+}
+
+/// What was explored.
+#[derive(Clone, Debug)]
+pub struct Exploration {
+    /// What a state is.
+    pub view: View,
+    /// States found.
+    pub states: usize,
+    /// Steps found.
+    pub steps: usize,
+    /// The largest of the shortest distances: in the scan view in scans from power-on, in the transition view in firings
+    /// from the initial marking.
+    pub depth: usize,
+    /// Whether all reachable states and steps were found.
+    pub complete: bool,
+    /// Why the search ended.
+    pub stop: Stop,
+    /// Bytes the graph takes.
+    pub bytes: u64,
+}
+
+/// The result of a check.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// What was explored.
+    pub exploration: Exploration,
+    /// Only runs in which the PLC keeps scanning were considered (transition view).
+    pub fair: bool,
+    /// The requirements in the order they were given.
+    pub answers: Vec<Answer>,
+    /// What is checked without asking.
+    pub checks: Vec<Answer>,
+}
+
+impl Report {
+    /// The verdict on everything: violated if one answer is, else unknown if one is, else holds.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let answers = self.answers.iter().chain(&self.checks);
+        answers.map(|answer| answer.outcome.verdict()).max().unwrap_or(Verdict::Holds)
+    }
+}

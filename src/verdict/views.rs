@@ -1,0 +1,118 @@
+//! What the two views have in common for a check: states, what holds in them, and traces to them.
+
+use super::{Trace, Witness};
+use crate::explore::{Graph, MarkingSpace, ScanSpace, StateSpace};
+use crate::logic::{Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
+use crate::translate::System;
+use crate::verdict::Note;
+use crate::witness::{Disagreement, Replay, firing_trace, replay_firings, replay_scans, scan_trace};
+
+/// A view of a system.
+pub trait SystemView: Sync {
+    /// Its states and steps.
+    fn space(&self) -> &dyn StateSpace;
+    /// The system.
+    fn system(&self) -> &System;
+    /// Whether a formula about one state holds in a state.
+    fn holds(&self, formula: &Bound, state: &[u64]) -> bool;
+    /// The trace along some states, replayed; `shows` is asked at each of them whether the replay shows what it should.
+    fn replayed(
+        &self,
+        states: &[&[u64]],
+        loop_start: Option<usize>,
+        shows: &dyn Fn(usize, &Replay<'_>) -> Result<(), Disagreement>,
+    ) -> Result<Trace, Disagreement>;
+}
+
+/// The scan view.
+pub struct ScanView<'s>(pub ScanSpace<'s>);
+
+impl SystemView for ScanView<'_> {
+    fn space(&self) -> &dyn StateSpace {
+        &self.0
+    }
+
+    fn system(&self) -> &System {
+        self.0.system()
+    }
+
+    fn holds(&self, formula: &Bound, state: &[u64]) -> bool {
+        formula.holds_in(&ScanValuation(&self.0, state)).unwrap_or(false)
+    }
+
+    fn replayed(
+        &self,
+        states: &[&[u64]],
+        loop_start: Option<usize>,
+        shows: &dyn Fn(usize, &Replay<'_>) -> Result<(), Disagreement>,
+    ) -> Result<Trace, Disagreement> {
+        let trace = scan_trace(&self.0, states, loop_start, false);
+        replay_scans(self.system(), &trace, shows)?;
+        Ok(Trace::Scans(trace))
+    }
+}
+
+/// The transition view.
+pub struct TransitionView<'s> {
+    pub space: MarkingSpace<'s>,
+    pub system: &'s System,
+}
+
+impl SystemView for TransitionView<'_> {
+    fn space(&self) -> &dyn StateSpace {
+        &self.space
+    }
+
+    fn system(&self) -> &System {
+        self.system
+    }
+
+    fn holds(&self, formula: &Bound, state: &[u64]) -> bool {
+        formula.holds_in(&MarkingValuation(&self.space, state)).unwrap_or(false)
+    }
+
+    fn replayed(
+        &self,
+        states: &[&[u64]],
+        loop_start: Option<usize>,
+        shows: &dyn Fn(usize, &Replay<'_>) -> Result<(), Disagreement>,
+    ) -> Result<Trace, Disagreement> {
+        let trace = firing_trace(&self.space, states, loop_start);
+        if trace.firings.len() + 1 != states.len() + usize::from(loop_start.is_some()) {
+            return Err(Disagreement("no transition leads from one state of the trace to the next".to_owned()));
+        }
+        replay_firings(self.system, &trace, shows)?;
+        Ok(Trace::Firings(trace))
+    }
+}
+
+/// The run that evidence describes, replayed, with everything it claims about single states checked on the net.
+pub fn witness(view: &dyn SystemView, graph: &Graph, dag: &Dag, evidence: &Evidence) -> Result<Witness, Disagreement> {
+    let states: Vec<&[u64]> = evidence.states.iter().map(|&state| graph.state(state)).collect();
+    let trace = view.replayed(&states, evidence.loop_start, &|position, replay| {
+        for claim in evidence.claims.iter().filter(|claim| claim.position == position) {
+            if let Node::State { formula, negated } = dag.node(claim.node) {
+                if replay.holds(formula) != Some(!negated) {
+                    let sentence = dag.sentence(claim.node, view.system());
+                    return Err(Disagreement(format!("the search claims that {sentence}, the net does not show it")));
+                }
+            }
+        }
+        Ok(())
+    })?;
+    Ok(Witness { trace, notes: notes(view.system(), dag, evidence) })
+}
+
+/// The claims of evidence as notes; a claim that is made of state after state becomes one note.
+fn notes(system: &System, dag: &Dag, evidence: &Evidence) -> Vec<Note> {
+    let mut notes: Vec<Note> = Vec::new();
+    for claim in evidence.claims.iter().filter(|claim| !dag.is_constant(claim.node, true)) {
+        let text = dag.sentence(claim.node, system);
+        let earlier = notes.iter_mut().find(|note| note.text == text && note.last + 1 >= claim.position);
+        match earlier {
+            Some(note) => note.last = note.last.max(claim.position),
+            None => notes.push(Note { first: claim.position, last: claim.position, text }),
+        }
+    }
+    notes
+}

@@ -1,0 +1,125 @@
+//! Traces told in the terms of the program: a table of scans, and the instructions of a scan with the current result.
+
+use super::firing_trace::FiringTrace;
+use super::scan_trace::{Scan, ScanTrace};
+use super::table::{Column, Table};
+use crate::interpret::Machine;
+use crate::semantics::{Role, VarId};
+use crate::source::Source;
+use crate::translate::{System, TransitionRole};
+
+/// A table with one row a scan: inputs, memory, outputs, and what the plant did before. A star marks a value that differs
+/// from the one a scan earlier (for the first scan, from the one at power-on). The last scan of a lasso is marked with the
+/// scan it repeats.
+#[must_use]
+pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
+    let program = &system.program;
+    let groups: Vec<Vec<VarId>> =
+        [Role::Input, Role::Memory, Role::Output].map(|role| program.with_role(role).collect()).into();
+    let head = |ids: &Vec<VarId>| ids.iter().map(|&id| Column::right(&program.variable(id).name)).collect();
+    let has_moves = trace.scans.iter().any(|scan| !scan.moves.is_empty());
+    let mut heads = vec![vec![Column::right("scan")]];
+    heads.extend(groups.iter().map(head));
+    heads.push(if has_moves { vec![Column::left("plant, before the scan")] } else { vec![] });
+    let mut table = Table::new(heads);
+    let mut before: Vec<bool> = program.variables.iter().map(|variable| variable.initial).collect();
+    for (position, scan) in trace.scans.iter().enumerate() {
+        let mut memory = before.clone();
+        match &scan.end {
+            Some(end) => memory.clone_from(&end.memory),
+            None => scan.inputs.iter().for_each(|&(input, value)| memory[input.0] = value),
+        }
+        let repeats = trace.loop_start.filter(|_| position + 1 == trace.scans.len());
+        let repeats = repeats.map(|start| format!(" = {}", start + 1)).unwrap_or_default();
+        let mut row = vec![format!("{}{repeats}", position + 1)];
+        for &id in groups.iter().flatten() {
+            let unknown = scan.end.is_none() && program.variable(id).role != Role::Input;
+            let star = if memory[id.0] == before[id.0] { "" } else { "*" };
+            row.push(if unknown { "?".to_owned() } else { format!("{star}{}", u8::from(memory[id.0])) });
+        }
+        if has_moves {
+            row.push(moves(system, scan));
+        }
+        table.row(row);
+        before = memory;
+    }
+    table
+}
+
+/// The plant's transitions before a scan, by name.
+fn moves(system: &System, scan: &Scan) -> String {
+    let names = scan.moves.iter().map(|m| system.plant.components[m.component].transitions[m.transition].name.as_str());
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// The instructions a scan of the trace executes, each with the current result after it and the variable it changed.
+///
+/// A scan that never ends is told until its state repeats.
+#[must_use]
+pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &Source) -> Table {
+    let program = &system.program;
+    let mut machine = Machine::new(program);
+    for earlier in &trace.scans[..scan] {
+        earlier.inputs.iter().for_each(|&(input, value)| machine.set(input, value));
+        // The replay has seen these scans end.
+        let _ = machine.scan();
+    }
+    trace.scans[scan].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
+    machine.begin_scan();
+    let mut table = Table::new(vec![
+        vec![Column::right("line"), Column::left("instruction")],
+        vec![Column::right("CR"), Column::left("changes")],
+        vec![Column::right("source"), Column::left("text")],
+    ]);
+    let mut seen: Vec<Machine<'_>> = Vec::new();
+    while !machine.at_end() && !seen.iter().any(|earlier| earlier.same_state(&machine)) {
+        let line = machine.line();
+        let before = machine.clone();
+        machine.step();
+        let code = &program.code[line];
+        let change = (0..program.variables.len()).map(VarId).find(|&id| before.value(id) != machine.value(id));
+        let change = change.map(|id| format!("{} = {}", program.variable(id).name, u8::from(machine.value(id))));
+        let from = source.line_of(code.span.start);
+        table.row(vec![
+            (line + 1).to_string(),
+            program.text(code.instruction),
+            u8::from(machine.result()).to_string(),
+            change.unwrap_or_default(),
+            from.to_string(),
+            source.line_text(from).to_owned(),
+        ]);
+        if trace.scans[scan].end.is_none() {
+            seen.push(before);
+        }
+    }
+    table
+}
+
+/// A firing sequence as a table: each firing, the scan it belongs to, and the instruction it executes. The last firing of a
+/// lasso is marked with the firing after which the marking was the same.
+#[must_use]
+pub fn firing_table(system: &System, trace: &FiringTrace) -> Table {
+    let mut table = Table::new(vec![
+        vec![Column::right("firing"), Column::right("scan")],
+        vec![Column::left("transition")],
+        vec![Column::left("instruction")],
+    ]);
+    let mut scan = 0;
+    for (position, &transition) in trace.firings.iter().enumerate() {
+        let role = system.transitions[transition.index()];
+        scan += usize::from(role == TransitionRole::Block);
+        let instruction = match role {
+            TransitionRole::Line(line) => system.program.text(system.program.code[line].instruction),
+            _ => String::new(),
+        };
+        let repeats = trace.loop_start.filter(|_| position + 1 == trace.firings.len());
+        let repeats = repeats.map(|start| format!(" = {start}")).unwrap_or_default();
+        table.row(vec![
+            format!("{}{repeats}", position + 1),
+            scan.to_string(),
+            system.net.transition(transition).name.clone(),
+            instruction,
+        ]);
+    }
+    table
+}

@@ -1,0 +1,132 @@
+//! Traces of the scan view: what the plant did, what the inputs were, and what the scan left.
+
+use std::collections::BTreeSet;
+
+use super::replay::{Disagreement, Replay};
+use crate::explore::{ScanSpace, ScanState};
+use crate::semantics::{Role, VarId};
+use crate::translate::{PlaceRole, System, TransitionRole};
+
+/// A run as a list of scans.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScanTrace {
+    /// The scans from power-on.
+    pub scans: Vec<Scan>,
+    /// For a lasso, the position of the scan whose end the last scan repeats.
+    pub loop_start: Option<usize>,
+}
+
+/// One scan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Scan {
+    /// What the plant did before it.
+    pub moves: Vec<PlantMove>,
+    /// The values copied to the inputs.
+    pub inputs: Vec<(VarId, bool)>,
+    /// The state at its end; `None` if it never ends.
+    pub end: Option<ScanState>,
+}
+
+/// A firing of the plant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlantMove {
+    /// The component.
+    pub component: usize,
+    /// Position in its list of transitions.
+    pub transition: usize,
+}
+
+/// The trace of packed scan states that follow one another, the first being one after the first scan.
+///
+/// With `loop_start`, one more scan leads back to the state at that position. With `endless`, the trace goes on with a scan that never ends from its last state (from power-on if there is none).
+#[must_use]
+pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<usize>, endless: bool) -> ScanTrace {
+    let system = space.system();
+    let inputs = |memory: &dyn Fn(VarId) -> bool| -> Vec<(VarId, bool)> {
+        system.program.with_role(Role::Input).map(|input| (input, memory(input))).collect()
+    };
+    let mut before = space.power_on();
+    let mut scans = Vec::new();
+    for state in states.iter().copied().chain(loop_start.map(|start| states[start])) {
+        let end = space.unpack(state);
+        let inputs = inputs(&|input| end.memory[input.0]);
+        scans.push(Scan { moves: moves(system, &before, &end.plant), inputs, end: Some(end.clone()) });
+        before = end;
+    }
+    if endless {
+        let mut last = None;
+        space.scans(&before, &mut |plant, machine, end| {
+            if end.is_err() && last.is_none() {
+                let inputs = inputs(&|input| machine.value(input));
+                last = Some(Scan { moves: moves(system, &before, plant), inputs, end: None });
+            }
+        });
+        scans.extend(last);
+    }
+    ScanTrace { scans, loop_start }
+}
+
+/// What brings the plant from its state at the end of a scan to the given markings.
+fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove> {
+    let components = system.plant.components.iter().zip(before.plant.iter().zip(plant)).enumerate();
+    let paths = components.filter_map(|(i, (component, (&from, &to)))| {
+        let path = component.path(from, to, |output| before.memory[output.0])?;
+        Some(path.into_iter().map(move |transition| PlantMove { component: i, transition }))
+    });
+    paths.flatten().collect()
+}
+
+/// Replays a trace, and calls `at_end` at the end of each scan with its position.
+///
+/// # Errors
+/// The trace is not one of the system, or `at_end` finds that it does not show what it should.
+pub fn replay_scans(
+    system: &System,
+    trace: &ScanTrace,
+    mut at_end: impl FnMut(usize, &Replay<'_>) -> Result<(), Disagreement>,
+) -> Result<(), Disagreement> {
+    let mut replay = Replay::new(system);
+    let end_place = PlaceRole::Line(system.program.end());
+    for (position, scan) in trace.scans.iter().enumerate() {
+        let in_scan = |Disagreement(what)| Disagreement(format!("in scan {}: {what}", position + 1));
+        for &PlantMove { component, transition } in &scan.moves {
+            replay.fire_only(|role| role == TransitionRole::Plant { component, transition }).map_err(in_scan)?;
+        }
+        replay.fire_only(|role| role == TransitionRole::Block).map_err(in_scan)?;
+        for &(variable, value) in &scan.inputs {
+            replay.fire_only(|role| role == TransitionRole::Copy { variable, value }).map_err(in_scan)?;
+        }
+        let mut seen = BTreeSet::new();
+        while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {
+            replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
+        }
+        let Some(end) = &scan.end else {
+            return if replay.is_at(end_place) { Err(in_scan(Disagreement("it ends".to_owned()))) } else { Ok(()) };
+        };
+        if !replay.is_at(end_place) {
+            return Err(in_scan(Disagreement("it never ends".to_owned())));
+        }
+        compare(system, &replay, end).map_err(in_scan)?;
+        at_end(position, &replay).map_err(in_scan)?;
+        replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
+    }
+    Ok(())
+}
+
+/// The search's end state against the net's.
+fn compare(system: &System, replay: &Replay<'_>, end: &ScanState) -> Result<(), Disagreement> {
+    let memory = replay.memory();
+    if let Some(variable) = system.program.declared().find(|id| memory[id.0] != end.memory[id.0]) {
+        let name = &system.program.variable(variable).name;
+        return Err(Disagreement(format!("the search has another value of `{name}` at its end than the net")));
+    }
+    for (i, (component, &marking)) in system.plant.components.iter().zip(&end.plant).enumerate() {
+        let own = system.net.place_ids().filter(|id| system.places[id.index()] == PlaceRole::Plant(i));
+        let marked: Vec<usize> =
+            own.enumerate().filter(|&(_, id)| replay.marking().is_marked(id)).map(|(place, _)| place).collect();
+        if marked != component.markings[marking].marked {
+            return Err(Disagreement(format!("the search has another marking of `{}` than the net", component.name)));
+        }
+    }
+    Ok(())
+}
