@@ -32,10 +32,26 @@ pub fn behaviour(space: &MarkingSpace<'_>, graph: &Graph) -> Behaviour {
     };
     let none = || FixedBitSet::with_capacity(count);
     let fired = (0..graph.len() as u32).into_par_iter().fold(none, add).reduce(none, |a, b| &a | &b);
+    let deadlocks = graph.ids().filter(|&state| graph.successors(state).is_empty()).count();
+    // A deadlock fires nothing for ever.
+    let live_without_dead = if deadlocks > 0 {
+        fired.is_clear()
+    } else {
+        fired_in_bottom_components(graph, none, add).iter().all(|by| *by == fired)
+    };
+    let dead = (0..count).filter(|&t| !fired.contains(t)).map(TransitionId::at).collect();
+    Behaviour { deadlocks, dead, live_without_dead }
+}
+
+/// For each component that no step leaves, the transitions that fire in it.
+fn fired_in_bottom_components(
+    graph: &Graph,
+    none: impl Fn() -> FixedBitSet,
+    add: impl Fn(FixedBitSet, u32) -> FixedBitSet,
+) -> Vec<FixedBitSet> {
     let mut all = FixedBitSet::with_capacity(graph.len());
     all.insert_range(..);
     let components = components(graph, &all);
-    // A bottom component is one that no step leaves. Live without the dead ones: each bottom component fires all others.
     let mut bottom = FixedBitSet::with_capacity(components.count);
     bottom.insert_range(..);
     for state in graph.ids() {
@@ -48,15 +64,11 @@ pub fn behaviour(space: &MarkingSpace<'_>, graph: &Graph) -> Behaviour {
     for state in graph.ids() {
         let own = components.of[state as usize];
         if bottom.contains(own as usize) {
-            let fired = fired_by.remove(&own).unwrap_or_else(none);
+            let fired = fired_by.remove(&own).unwrap_or_else(&none);
             fired_by.insert(own, add(fired, state));
         }
     }
-    Behaviour {
-        deadlocks: graph.ids().filter(|&state| graph.successors(state).is_empty()).count(),
-        dead: (0..count).filter(|&t| !fired.contains(t)).map(TransitionId::at).collect(),
-        live_without_dead: fired_by.values().all(|by| *by == fired),
-    }
+    fired_by.into_values().collect()
 }
 
 /// A firing that puts a second token on a place: the state it starts from, the transition, the place.

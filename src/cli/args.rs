@@ -1,0 +1,219 @@
+//! The arguments, as they are typed.
+
+use std::path::PathBuf;
+
+use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+
+/// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
+///
+/// Exit codes: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
+#[derive(Debug, Parser)]
+#[command(name = "petril", version, max_term_width = 100)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// Colours in messages.
+    #[arg(long = "color", alias = "colour", value_name = "WHEN", value_enum, default_value_t = When::Auto, global = true)]
+    pub colour: When,
+}
+
+/// When to use colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum When {
+    /// If the terminal has them and NO_COLOR is not set.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Check a program against requirements.
+    Check(Check),
+    /// Write the Petri net of a program and its plant.
+    Translate(Translate),
+    /// Print the flat code of a program: numbered lines without parentheses and labels.
+    Flat(Flat),
+    /// Run a program scan by scan and print its variables.
+    Simulate(Simulate),
+    /// Draw the subnet of an instruction.
+    Draw(Draw),
+    /// Work on any safe Petri net.
+    #[command(subcommand)]
+    Net(NetVerb),
+}
+
+/// `petril check`
+///
+/// All reachable states are explored, so a verdict `holds` is a proof under the assumptions the report lists, and
+/// `violated` comes with a shortest run that shows it, replayed on the net and in the interpreter.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Formulas are CTL: AG EF AX EX AF EG, A [p U q], E [p U q] and W (weak until) over the program's variables, with
+! & | -> <-> and comparisons of sums. A state is the valuation of all variables at the end of a scan, a step is one scan.
+
+Examples:
+  petril check press.il -r 'AG (Down -> Left & Right)'
+  petril check press.il --plant buttons.net --require press.req --json
+  petril check press.il --view transition -r 'AG (at line 3 -> CuttingAllowed)'
+
+A requirement file:
+  // comment
+  requirement both_hands \"The press closes only while both buttons are pressed\":
+      AG (Down -> Left & Right);")]
+pub struct Check {
+    /// The program (Instruction List).
+    #[arg(value_name = "PROGRAM.il")]
+    pub program: PathBuf,
+    /// A plant: a safe net (.net or .pnml) whose places named like `S1=1,O1=0` drive inputs. Inputs that no plant drives
+    /// are free. May be given several times.
+    #[arg(long, value_name = "NET")]
+    pub plant: Vec<PathBuf>,
+    /// A file of requirements. May be given several times.
+    #[arg(long, value_name = "FILE")]
+    pub require: Vec<PathBuf>,
+    /// A requirement as a formula. May be given several times.
+    #[arg(short = 'r', long = "requirement", value_name = "FORMULA", allow_hyphen_values = true)]
+    pub requirement: Vec<String>,
+    /// What a state is: the end of a scan, or a marking of the net.
+    #[arg(long, value_enum, default_value_t = View::Scan)]
+    pub view: View,
+    /// Leave out runs in which the plant moves for ever and the PLC never scans again (transition view; in the scan view
+    /// there are none).
+    #[arg(long)]
+    pub fair: bool,
+    /// Print the report as one JSON document.
+    #[arg(long)]
+    pub json: bool,
+    /// Tell the last scan of each counterexample line by line, with the current result.
+    #[arg(long)]
+    pub by_line: bool,
+    /// Print the runs that show what is possible, too (for EF and its like).
+    #[arg(long)]
+    pub witnesses: bool,
+    /// Limits of the exploration.
+    #[command(flatten)]
+    pub limits: Limits,
+}
+
+/// Limits of an exploration. What is decided within them is printed; the rest is unknown.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Limits {
+    /// Stop after this many states.
+    #[arg(long, value_name = "N", default_value_t = 100_000_000)]
+    pub max_states: u64,
+    /// Stop when states and steps take this much memory, in MiB.
+    #[arg(long, value_name = "MIB", default_value_t = 8192)]
+    pub max_memory: u64,
+    /// Stop exploring after this many seconds.
+    #[arg(long, value_name = "SECONDS")]
+    pub timeout: Option<f64>,
+    /// Threads to use; all processors if not given. The result is the same.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// What a state is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum View {
+    /// The valuation of all variables at the end of a scan; a step is one scan.
+    Scan,
+    /// A marking of the net; a step is one firing.
+    Transition,
+}
+
+/// `petril translate`
+#[derive(Debug, clap::Args)]
+pub struct Translate {
+    /// The program (Instruction List).
+    #[arg(value_name = "PROGRAM.il")]
+    pub program: PathBuf,
+    /// A plant, as for `petril check`.
+    #[arg(long, value_name = "NET")]
+    pub plant: Vec<PathBuf>,
+    /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot, .svg.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+/// `petril flat`
+#[derive(Debug, clap::Args)]
+pub struct Flat {
+    /// The program (Instruction List).
+    #[arg(value_name = "PROGRAM.il")]
+    pub program: PathBuf,
+}
+
+/// `petril simulate`
+#[derive(Debug, clap::Args)]
+pub struct Simulate {
+    /// The program (Instruction List).
+    #[arg(value_name = "PROGRAM.il")]
+    pub program: PathBuf,
+    /// Values of the inputs (CSV): names in the first row, then one row a scan. Inputs without a column keep their initial
+    /// value.
+    #[arg(long, value_name = "CSV")]
+    pub inputs: Option<PathBuf>,
+    /// How many scans; if not given, one for each row of inputs, or 10. Beyond the last row, inputs stay as they are.
+    #[arg(long, value_name = "N")]
+    pub scans: Option<usize>,
+    /// How to print.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub format: Format,
+}
+
+/// Forms of a simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A table for people.
+    Table,
+    /// First column `cycle`, then every variable.
+    Csv,
+}
+
+/// `petril draw`
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Examples:
+  petril draw --instruction AND -o and.svg
+  petril draw --instruction 'JMPC' -o jmpc.svg
+  petril draw press.il --line 3 -o line3.svg")]
+pub struct Draw {
+    /// A program; with --line, the subnet of one of its lines is drawn.
+    #[arg(value_name = "PROGRAM.il", required_unless_present = "instruction")]
+    pub program: Option<PathBuf>,
+    /// The line of the program's flat code to draw, as `petril flat` numbers it.
+    #[arg(long, value_name = "N", requires = "program")]
+    pub line: Option<usize>,
+    /// An operator to draw, without a program: LD LDN ST STN S R AND ANDN OR ORN XOR XORN NOT JMP JMPC JMPCN.
+    #[arg(long, value_name = "OPERATOR", conflicts_with = "program")]
+    pub instruction: Option<String>,
+    /// Where to write the SVG picture.
+    #[arg(short, long, value_name = "FILE.svg")]
+    pub output: PathBuf,
+}
+
+/// The verbs on nets.
+#[derive(Debug, Subcommand)]
+pub enum NetVerb {
+    /// Print size and behaviour of a net: reachable markings, safe or not, deadlocks, dead transitions, live or not.
+    Info(NetInfo),
+}
+
+/// `petril net info`
+#[derive(Debug, clap::Args)]
+pub struct NetInfo {
+    /// The net (.pnml or .net).
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Print one JSON document.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub json: bool,
+    /// Limits of the exploration.
+    #[command(flatten)]
+    pub limits: Limits,
+}

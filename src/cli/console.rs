@@ -1,0 +1,90 @@
+//! The terminal: colour, width, and where messages go.
+
+use std::io::{self, ErrorKind, IsTerminal, Write};
+
+use petril::diagnostic::{Diagnostic, Style, render};
+use petril::source::Source;
+
+use super::args::When;
+use super::{Failure, Outcome, SUCCESS};
+
+/// How many diagnostics of one file are printed. The first ones are the ones to mend.
+const MAX_DIAGNOSTICS: usize = 100;
+
+/// What there is to print to. Results go to standard output, messages to standard error.
+pub struct Console {
+    errors_in_colour: bool,
+    output_in_colour: bool,
+    width: usize,
+}
+
+impl Console {
+    pub fn new(colour: When) -> Self {
+        let wanted = |terminal: bool| match colour {
+            When::Always => true,
+            When::Never => false,
+            When::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        };
+        let width = console_width().unwrap_or(120);
+        Self {
+            errors_in_colour: wanted(io::stderr().is_terminal()),
+            output_in_colour: wanted(io::stdout().is_terminal()),
+            width,
+        }
+    }
+
+    /// Prints the diagnostics of a file, most of them.
+    pub fn diagnostics(&self, diagnostics: &[Diagnostic], source: &Source) {
+        let style = Style { colour: self.errors_in_colour, width: self.width };
+        for diagnostic in diagnostics.iter().take(MAX_DIAGNOSTICS) {
+            self.message(&render(diagnostic, source, style));
+        }
+        if let Some(more @ 1..) = diagnostics.len().checked_sub(MAX_DIAGNOSTICS) {
+            self.message(&format!("… and {more} more in {}\n", source.name()));
+        }
+    }
+
+    /// Prints an error that has no place in a file.
+    pub fn error(&self, message: &str) {
+        let title = if self.errors_in_colour { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
+        self.message(&format!("{title}: {message}\n"));
+    }
+
+    /// Prints a message. If nobody listens, so be it.
+    pub fn message(&self, text: &str) {
+        let _ = io::stderr().write_all(text.as_bytes());
+    }
+
+    /// Prints a result.
+    pub fn print(&self, text: &str) -> Outcome {
+        match io::stdout().lock().write_all(text.as_bytes()) {
+            Ok(()) => Ok(SUCCESS),
+            // The reader has seen enough, as `head` does.
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),
+            Err(error) => Err(Failure::Message(format!("cannot print: {error}"))),
+        }
+    }
+
+    /// A word of a result in the colour of its meaning.
+    pub fn paint(&self, word: &str, colour: Colour) -> String {
+        let code = match colour {
+            Colour::Good => "32",
+            Colour::Bad => "31",
+            Colour::Doubtful => "33",
+        };
+        if self.output_in_colour { format!("\u{1b}[1;{code}m{word}\u{1b}[0m") } else { word.to_owned() }
+    }
+}
+
+/// What a colour means.
+#[derive(Clone, Copy)]
+pub enum Colour {
+    Good,
+    Bad,
+    Doubtful,
+}
+
+/// Columns of the terminal, if it says.
+fn console_width() -> Option<usize> {
+    std::env::var("COLUMNS").ok()?.parse().ok().filter(|&width| width >= 40)
+}

@@ -1,0 +1,59 @@
+//! The command line: the only place that opens files, prints, or knows the clock. One file for each verb.
+//!
+//! Exit codes are a contract: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
+
+mod args;
+mod check;
+mod console;
+mod draw;
+mod flat;
+mod input;
+mod net_info;
+mod output;
+mod progress;
+mod report;
+mod simulate;
+mod translate;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, NetVerb, Verb};
+use console::Console;
+
+/// What went wrong where no verdict could be reached. It has been printed already if it is a list of diagnostics.
+pub enum Failure {
+    /// Diagnostics were printed.
+    Reported,
+    /// This has still to be said.
+    Message(String),
+}
+
+/// How a verb ends.
+pub type Outcome = Result<ExitCode, Failure>;
+
+/// Everything holds, or the verb did what it was asked to.
+pub const SUCCESS: ExitCode = ExitCode::SUCCESS;
+
+/// Reads the command line and does what it says.
+pub fn run() -> ExitCode {
+    let args = Args::parse();
+    let console = Console::new(args.colour);
+    let outcome = match args.verb {
+        Verb::Check(arguments) => check::run(&arguments, &console),
+        Verb::Translate(arguments) => translate::run(&arguments, &console),
+        Verb::Flat(arguments) => flat::run(&arguments, &console),
+        Verb::Simulate(arguments) => simulate::run(&arguments, &console),
+        Verb::Draw(arguments) => draw::run(&arguments, &console),
+        Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
+    };
+    match outcome {
+        Ok(code) => code,
+        Err(Failure::Reported) => ExitCode::from(2),
+        Err(Failure::Message(message)) => {
+            console.error(&message);
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Watching a search: figures on the terminal while it runs, and the limit of time.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{HumanBytes, HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use petril::explore::{Budget, Progress};
+
+use super::Failure;
+use super::args::Limits;
+
+/// Watches a search.
+pub struct Watcher {
+    bar: ProgressBar,
+    started: Instant,
+    timeout: Option<Duration>,
+}
+
+impl Watcher {
+    /// Sets the number of threads, and begins to watch.
+    pub fn new(limits: &Limits) -> Result<Self, Failure> {
+        if let Some(threads) = limits.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+            pool.map_err(|error| Failure::Message(format!("cannot use {threads} threads: {error}")))?;
+        }
+        let timeout = match limits.timeout.map(Duration::try_from_secs_f64) {
+            Some(Err(error)) => return Err(Failure::Message(format!("--timeout: {error}"))),
+            Some(Ok(timeout)) => Some(timeout),
+            None => None,
+        };
+        // Drawn on standard error, and only if that is a terminal.
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        bar.set_style(ProgressStyle::default_spinner());
+        Ok(Self { bar, started: Instant::now(), timeout })
+    }
+
+    /// Shows the figures; gives a reason to stop if time is up.
+    pub fn watch(&self, progress: &Progress) -> Option<String> {
+        let elapsed = self.started.elapsed();
+        if elapsed > Duration::from_millis(500) {
+            let rate = progress.states as f64 / elapsed.as_secs_f64();
+            self.bar.set_message(format!(
+                "exploring: {} states, {} still to expand, depth {}, {} states/s, {}",
+                HumanCount(progress.states),
+                HumanCount(progress.states - progress.expanded),
+                progress.depth,
+                HumanCount(rate as u64),
+                HumanBytes(progress.bytes),
+            ));
+            self.bar.tick();
+        }
+        let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
+        Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
+    }
+
+    /// Clears the figures.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Limits {
+    /// The limits the search itself keeps.
+    pub fn budget(&self) -> Budget {
+        Budget { states: self.max_states, bytes: self.max_memory << 20 }
+    }
+}

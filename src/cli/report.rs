@@ -1,0 +1,184 @@
+//! The report of a check as text for people.
+
+use petril::logic::View;
+use petril::semantics::Role;
+use petril::source::Source;
+use petril::translate::{Part, System};
+use petril::verdict::{Answer, Note, Outcome, Report, Trace, Verdict, Witness};
+use petril::witness::{Column, Table, firing_table, line_by_line, scan_table};
+
+use super::args::Check;
+use super::console::{Colour, Console};
+
+/// Everything the text depends on besides the report.
+pub struct Text<'a> {
+    pub system: &'a System,
+    pub source: &'a Source,
+    pub arguments: &'a Check,
+    pub console: &'a Console,
+}
+
+impl Text<'_> {
+    /// The whole report.
+    pub fn report(&self, report: &Report) -> String {
+        let program = &self.system.program;
+        let mut out = format!("program `{}` from {}, {} lines of flat code\n\n", program.name, self.source.name(), program.end());
+        out += &indent(&self.size().to_string());
+        out += "\n";
+        out += &self.exploration(report);
+        for answer in &report.answers {
+            out += "\n";
+            out += &self.answer(answer, report);
+        }
+        // A check that holds is one word; the others are told like requirements.
+        let (fine, others): (Vec<_>, Vec<_>) =
+            report.checks.iter().partition(|check| check.outcome.verdict() == Verdict::Holds);
+        for check in others {
+            out += "\n";
+            out += &self.answer(check, report);
+        }
+        out += "\n";
+        out += &summary(report);
+        let names: Vec<&str> = fine.iter().map(|check| check.name.as_str()).collect();
+        if !names.is_empty() {
+            out += &format!("checked without asking: {} holds\n", names.join(", "));
+        }
+        out
+    }
+
+    fn size(&self) -> Table {
+        let mut table =
+            Table::new(vec![vec![Column::left("net")], vec![Column::right("places"), Column::right("transitions")]]);
+        for part in Part::ALL {
+            let (places, transitions) = self.system.size(part);
+            table.row(vec![part.name().to_owned(), places.to_string(), transitions.to_string()]);
+        }
+        let net = &self.system.net;
+        table.row(vec!["total".to_owned(), net.places().len().to_string(), net.transitions().len().to_string()]);
+        table
+    }
+
+    fn exploration(&self, report: &Report) -> String {
+        let exploration = &report.exploration;
+        let (view, states, depth) = match exploration.view {
+            View::Scan => ("scan view", "states at the end of a scan", "scans"),
+            View::Transition => ("transition view", "reachable markings", "firings"),
+        };
+        let mut out = format!(
+            "{view}: {} {states}, {} steps, every state within {} {depth}: {}\n",
+            exploration.states, exploration.steps, exploration.depth, exploration.stop
+        );
+        for assumption in assumptions(self.system, report) {
+            out += &format!("assumed: {assumption}\n");
+        }
+        out
+    }
+
+    fn answer(&self, answer: &Answer, report: &Report) -> String {
+        let (word, colour) = match answer.outcome.verdict() {
+            Verdict::Holds => ("HOLDS   ", Colour::Good),
+            Verdict::Violated => ("VIOLATED", Colour::Bad),
+            Verdict::Unknown => ("UNKNOWN ", Colour::Doubtful),
+        };
+        let mut out = format!("{} {}", self.console.paint(word, colour), answer.name);
+        if let Some(sentence) = &answer.sentence {
+            out += &format!(": {sentence}");
+        }
+        out += &format!("\n    {}\n", answer.formula);
+        match &answer.outcome {
+            Outcome::Unknown(reason) => out += &format!("    because {reason}\n"),
+            Outcome::Holds { vacuous: Some(premise), .. } => {
+                let doubt = self.console.paint("vacuously", Colour::Doubtful);
+                out += &format!("    {doubt}: `{premise}` is true in no reachable state\n");
+            }
+            Outcome::Holds { witness: Some(witness), .. } if self.arguments.witnesses => {
+                out += &self.witness(witness, report);
+            }
+            Outcome::Holds { witness: Some(Witness { trace, .. }), .. } => {
+                out += &match trace {
+                    Trace::Scans(trace) => format!("    shown by a run of {} scans (--witnesses prints it)\n", trace.scans.len()),
+                    Trace::Firings(trace) => {
+                        format!("    shown by a run of {} firings (--witnesses prints it)\n", trace.firings.len())
+                    }
+                };
+            }
+            Outcome::Holds { .. } => {}
+            Outcome::Violated(witness) => out += &self.witness(witness, report),
+        }
+        out
+    }
+
+    fn witness(&self, witness: &Witness, report: &Report) -> String {
+        let table = match &witness.trace {
+            Trace::Scans(trace) => scan_table(self.system, trace),
+            Trace::Firings(trace) => firing_table(self.system, trace),
+        };
+        let mut out = format!("\n{}\n", indent(&table.to_string()));
+        for note in &witness.notes {
+            out += &format!("    {}\n", sentence(note, report.exploration.view));
+        }
+        if let (Trace::Scans(trace), true) = (&witness.trace, self.arguments.by_line) {
+            let last = trace.scans.len() - 1;
+            let lines = line_by_line(self.system, trace, last, self.source);
+            out += &format!("\n    scan {} line by line:\n\n{}", last + 1, indent(&lines.to_string()));
+        }
+        out
+    }
+}
+
+/// A note as a sentence.
+fn sentence(note: &Note, view: View) -> String {
+    let (unit, first, last) = match view {
+        View::Scan => ("scan", note.first + 1, note.last + 1),
+        View::Transition => ("firing", note.first, note.last),
+    };
+    let when = match (view, first == last) {
+        (View::Transition, true) if first == 0 => "at the beginning".to_owned(),
+        (_, true) => format!("after {unit} {first}"),
+        (_, false) => format!("after {unit}s {first} to {last}"),
+    };
+    format!("{when}: {}", note.text)
+}
+
+/// Under which assumptions the verdicts are proofs.
+fn assumptions(system: &System, report: &Report) -> Vec<String> {
+    let program = &system.program;
+    let names = |ids: &mut dyn Iterator<Item = petril::semantics::VarId>| {
+        ids.map(|id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let mut assumptions = vec!["the PLC starts cold: every variable has its initial value".to_owned()];
+    for (i, component) in system.plant.components.iter().enumerate() {
+        let driven = names(&mut program.with_role(Role::Input).filter(|&id| system.plant.driver(id) == Some(i)));
+        assumptions.push(match driven.as_str() {
+            "" => format!("the device {} moves any number of times between two scans, or not at all", component.name),
+            _ => format!("{driven} follow the device {}, which moves any number of times between two scans, or not at all", component.name),
+        });
+    }
+    let free = names(&mut system.free_inputs());
+    if !free.is_empty() {
+        assumptions.push(format!("{free} may have any value in any scan"));
+    }
+    if report.fair {
+        assumptions.push("the PLC always scans again".to_owned());
+    }
+    assumptions
+}
+
+fn summary(report: &Report) -> String {
+    let count = |verdict| report.answers.iter().filter(|answer| answer.outcome.verdict() == verdict).count();
+    let (holds, violated, unknown) = (count(Verdict::Holds), count(Verdict::Violated), count(Verdict::Unknown));
+    match report.answers.len() {
+        0 => "no requirements were given (-r FORMULA or --require FILE)\n".to_owned(),
+        n => {
+            let mut parts = vec![format!("{holds} hold")];
+            parts.extend((violated > 0).then(|| format!("{violated} violated")));
+            parts.extend((unknown > 0).then(|| format!("{unknown} unknown")));
+            format!("{n} requirements: {}\n", parts.join(", "))
+        }
+    }
+}
+
+/// Indents every line that is not empty.
+fn indent(text: &str) -> String {
+    text.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("    {line}\n") }).collect()
+}

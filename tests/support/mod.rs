@@ -1,0 +1,27 @@
+//! What several tests share.
+#![allow(dead_code, reason = "each test uses a part")]
+
+pub mod naive_ctl;
+pub mod random_formula;
+pub mod random_program;
+
+use petril::flat::{FlatProgram, flatten};
+use petril::logic::{Bound, View, bind, parse_formula};
+use petril::semantics;
+use petril::source::Source;
+use petril::syntax;
+use petril::translate::System;
+
+/// The flat code of a program that must be right.
+pub fn program(text: &str) -> FlatProgram {
+    let source = Source::new("program", text);
+    let (unit, errors) = syntax::parse(&source);
+    let (program, more) = semantics::check(&unit, errors.is_empty());
+    flatten(&program.unwrap_or_else(|| panic!("{text}\n{errors:#?}\n{more:#?}")))
+}
+
+/// A formula that must be right.
+pub fn formula(text: &str, system: &System, view: View) -> Bound {
+    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+    bind(&requirement.formula, system, view).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+}
