@@ -1,10 +1,9 @@
 //! The report of a check as text for people.
 
 use petril::logic::View;
-use petril::semantics::Role;
 use petril::source::Source;
 use petril::translate::{Part, System};
-use petril::verdict::{Answer, Note, Outcome, Report, Trace, Verdict, Witness};
+use petril::verdict::{Answer, Outcome, Report, Trace, Verdict, Witness};
 use petril::witness::{Column, Table, firing_table, line_by_line, scan_table};
 
 use super::args::Check;
@@ -68,7 +67,7 @@ impl Text<'_> {
             "{view}: {} {states}, {} steps, every state within {} {depth}: {}\n",
             exploration.states, exploration.steps, exploration.depth, exploration.stop
         );
-        for assumption in assumptions(self.system, report) {
+        for assumption in &report.assumptions {
             out += &format!("assumed: {assumption}\n");
         }
         out
@@ -115,7 +114,7 @@ impl Text<'_> {
         };
         let mut out = format!("\n{}\n", indent(&table.to_string()));
         for note in &witness.notes {
-            out += &format!("    {}\n", sentence(note, report.exploration.view));
+            out += &format!("    {}\n", note.sentence(report.exploration.view));
         }
         if let (Trace::Scans(trace), true) = (&witness.trace, self.arguments.by_line) {
             let last = trace.scans.len() - 1;
@@ -124,44 +123,6 @@ impl Text<'_> {
         }
         out
     }
-}
-
-/// A note as a sentence.
-fn sentence(note: &Note, view: View) -> String {
-    let (unit, first, last) = match view {
-        View::Scan => ("scan", note.first + 1, note.last + 1),
-        View::Transition => ("firing", note.first, note.last),
-    };
-    let when = match (view, first == last) {
-        (View::Transition, true) if first == 0 => "at the beginning".to_owned(),
-        (_, true) => format!("after {unit} {first}"),
-        (_, false) => format!("after {unit}s {first} to {last}"),
-    };
-    format!("{when}: {}", note.text)
-}
-
-/// Under which assumptions the verdicts are proofs.
-fn assumptions(system: &System, report: &Report) -> Vec<String> {
-    let program = &system.program;
-    let names = |ids: &mut dyn Iterator<Item = petril::semantics::VarId>| {
-        ids.map(|id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ")
-    };
-    let mut assumptions = vec!["the PLC starts cold: every variable has its initial value".to_owned()];
-    for (i, component) in system.plant.components.iter().enumerate() {
-        let driven = names(&mut program.with_role(Role::Input).filter(|&id| system.plant.driver(id) == Some(i)));
-        assumptions.push(match driven.as_str() {
-            "" => format!("the device {} moves any number of times between two scans, or not at all", component.name),
-            _ => format!("{driven} follow the device {}, which moves any number of times between two scans, or not at all", component.name),
-        });
-    }
-    let free = names(&mut system.free_inputs());
-    if !free.is_empty() {
-        assumptions.push(format!("{free} may have any value in any scan"));
-    }
-    if report.fair {
-        assumptions.push("the PLC always scans again".to_owned());
-    }
-    assumptions
 }
 
 fn summary(report: &Report) -> String {

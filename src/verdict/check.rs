@@ -3,6 +3,7 @@
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
+use super::assumptions::assumptions;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::{Answer, Exploration, Outcome, Report, scan_ends};
 use crate::explore::{Budget, Graph, MarkingSpace, Progress, ScanSpace, explore};
@@ -67,7 +68,7 @@ pub fn check(
             stop: graph.stop().clone(),
             bytes: graph.bytes(),
         },
-        fair: options.fair,
+        assumptions: assumptions(system, options.fair),
         answers,
         checks: vec![scan_ends::answer(ends)],
     }

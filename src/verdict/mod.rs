@@ -1,5 +1,6 @@
 //! Verdicts: every requirement holds, is violated with a witness, or is undecided for a reason.
 
+mod assumptions;
 mod check;
 mod scan_ends;
 mod views;
@@ -100,6 +101,23 @@ pub struct Note {
     pub text: String,
 }
 
+impl Note {
+    /// The note as a sentence: "after scan 2: …".
+    #[must_use]
+    pub fn sentence(&self, view: View) -> String {
+        // States of the scan view are the ends of scans; the first marking is there before any firing.
+        let (unit, first, last) = match view {
+            View::Scan => ("scan", self.first + 1, self.last + 1),
+            View::Transition => ("firing", self.first, self.last),
+        };
+        match (first, last) {
+            (0, 0) => format!("at the beginning: {}", self.text),
+            _ if first == last => format!("after {unit} {first}: {}", self.text),
+            _ => format!("after {unit}s {first} to {last}: {}", self.text),
+        }
+    }
+}
+
 /// A requirement and its outcome.
 #[derive(Clone, Debug)]
 pub struct Answer {
@@ -138,8 +156,8 @@ pub struct Exploration {
 pub struct Report {
     /// What was explored.
     pub exploration: Exploration,
-    /// Only runs in which the PLC keeps scanning were considered (transition view).
-    pub fair: bool,
+    /// Under which assumptions the verdicts are proofs.
+    pub assumptions: Vec<String>,
     /// The requirements in the order they were given.
     pub answers: Vec<Answer>,
     /// What is checked without asking.

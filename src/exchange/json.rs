@@ -1,0 +1,129 @@
+//! Reports as JSON, for programs. Field names are part of the interface: they are only ever added to.
+
+use serde_json::{Map, Value, json};
+
+use crate::logic::View;
+use crate::semantics::{Role, VarId};
+use crate::translate::{Part, System, TransitionRole};
+use crate::verdict::{Answer, Outcome, Report, Trace, Witness};
+use crate::witness::{FiringTrace, Scan, ScanTrace};
+
+/// The report of a check, as one document that ends with a newline. `file` is the name of the program's file.
+#[must_use]
+pub fn report(system: &System, report: &Report, file: &str) -> String {
+    let size = |(places, transitions)| json!({ "places": places, "transitions": transitions });
+    let parts: Map<String, Value> =
+        Part::ALL.map(|part| (part.name().to_owned(), size(system.size(part)))).into_iter().collect();
+    let exploration = &report.exploration;
+    let answers = |answers: &[Answer]| answers.iter().map(|a| answer(system, a, exploration.view)).collect::<Vec<_>>();
+    let document = json!({
+        "program": { "name": system.program.name, "file": file, "lines": system.program.end() },
+        "net": {
+            "places": system.net.places().len(),
+            "transitions": system.net.transitions().len(),
+            "parts": parts,
+        },
+        "exploration": {
+            "view": view(exploration.view),
+            "states": exploration.states,
+            "steps": exploration.steps,
+            "depth": exploration.depth,
+            "complete": exploration.complete,
+            "stop": exploration.stop.to_string(),
+            "bytes": exploration.bytes,
+        },
+        "assumptions": report.assumptions,
+        "requirements": answers(&report.answers),
+        "checks": answers(&report.checks),
+        "verdict": report.verdict().word(),
+    });
+    format!("{document:#}\n")
+}
+
+fn view(view: View) -> &'static str {
+    match view {
+        View::Scan => "scan",
+        View::Transition => "transition",
+    }
+}
+
+fn answer(system: &System, answer: &Answer, view: View) -> Value {
+    let witness = answer.outcome.witness();
+    let reason = match &answer.outcome {
+        Outcome::Unknown(reason) => Some(reason.clone()),
+        Outcome::Holds { vacuous: Some(premise), .. } => Some(format!("vacuous: `{premise}` is true in no reachable state")),
+        Outcome::Holds { .. } => None,
+        Outcome::Violated(witness) => {
+            Some(witness.notes.iter().map(|note| note.sentence(view)).collect::<Vec<_>>().join("; "))
+        }
+    };
+    json!({
+        "name": answer.name,
+        "sentence": answer.sentence,
+        "formula": answer.formula,
+        "verdict": answer.outcome.verdict().word(),
+        "reason": reason,
+        "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
+        "trace": witness.map(|witness| trace(system, witness)),
+    })
+}
+
+fn trace(system: &System, witness: &Witness) -> Value {
+    let mut document = match &witness.trace {
+        Trace::Scans(trace) => scans(system, trace),
+        Trace::Firings(trace) => firings(system, trace),
+    };
+    let notes = witness.notes.iter().map(|n| json!({ "first": n.first, "last": n.last, "text": n.text }));
+    document["notes"] = notes.collect();
+    document
+}
+
+/// `loop_start` is the number of the scan whose end the last scan repeats.
+fn scans(system: &System, trace: &ScanTrace) -> Value {
+    let one = |(position, scan): (usize, &Scan)| {
+        let name = |id: VarId| system.program.variable(id).name.clone();
+        let values = |role| -> Map<String, Value> {
+            let end = scan.end.iter().flat_map(|end| {
+                system.program.with_role(role).map(|id| (name(id), Value::Bool(end.memory[id.0])))
+            });
+            end.collect()
+        };
+        let inputs: Map<String, Value> =
+            scan.inputs.iter().map(|&(id, value)| (name(id), Value::Bool(value))).collect();
+        let moves = scan.moves.iter().map(|m| &system.plant.components[m.component].transitions[m.transition].name);
+        json!({
+            "scan": position + 1,
+            "plant": moves.collect::<Vec<_>>(),
+            "inputs": inputs,
+            "memory": values(Role::Memory),
+            "outputs": values(Role::Output),
+            "ends": scan.end.is_some(),
+        })
+    };
+    json!({
+        "kind": "scans",
+        "loop_start": trace.loop_start.map(|start| start + 1),
+        "scans": trace.scans.iter().enumerate().map(one).collect::<Vec<_>>(),
+    })
+}
+
+/// `loop_start` is the number of firings after which the marking was the one the last firing leads to.
+fn firings(system: &System, trace: &FiringTrace) -> Value {
+    let one = |&transition: &crate::net::TransitionId| {
+        let role = system.transitions[transition.index()];
+        let line = match role {
+            TransitionRole::Line(line) => Some(line + 1),
+            _ => None,
+        };
+        json!({
+            "transition": system.net.transition(transition).name,
+            "part": role.part().name(),
+            "line": line,
+        })
+    };
+    json!({
+        "kind": "firings",
+        "loop_start": trace.loop_start,
+        "firings": trace.firings.iter().map(one).collect::<Vec<_>>(),
+    })
+}
