@@ -2,6 +2,7 @@
 #![doc = ""]
 
 pub mod diagnostic;
+pub mod exchange;
 pub mod flat;
 pub mod interpret;
 pub mod net;

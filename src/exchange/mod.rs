@@ -1,0 +1,8 @@
+//! Nets from and to the formats of other tools, one module for each.
+//!
+//! Readers take a text and give a [`Located`](crate::net::Located) net or everything that is wrong with the text; writers
+//! give a text. What a safe place/transition net cannot express is refused, never left out in silence.
+
+mod draft;
+
+pub mod tina;
