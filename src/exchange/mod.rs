@@ -5,4 +5,5 @@
 
 mod draft;
 
+pub mod pnml;
 pub mod tina;
