@@ -2,6 +2,7 @@
 #![doc = ""]
 
 pub mod diagnostic;
+pub mod draw;
 pub mod exchange;
 pub mod flat;
 pub mod interpret;

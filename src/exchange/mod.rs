@@ -4,6 +4,9 @@
 //! give a text. What a safe place/transition net cannot express is refused, never left out in silence.
 
 mod draft;
+mod notes;
 
 pub mod pnml;
 pub mod tina;
+
+pub use notes::{Note, Notes};

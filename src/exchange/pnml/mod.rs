@@ -7,8 +7,10 @@ mod contents;
 mod label;
 mod read;
 mod references;
+mod write;
 
 #[cfg(test)]
 mod tests;
 
 pub use read::read;
+pub use write::write;
