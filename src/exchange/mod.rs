@@ -6,6 +6,7 @@
 mod draft;
 mod notes;
 
+pub mod dot;
 pub mod pnml;
 pub mod tina;
 
