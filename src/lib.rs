@@ -2,6 +2,8 @@
 #![doc = ""]
 
 pub mod diagnostic;
+pub mod draw;
+pub mod exchange;
 pub mod explore;
 pub mod flat;
 pub mod interpret;

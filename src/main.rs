@@ -1,2 +1,9 @@
-//! scratch
-fn main() {}
+//! The command line of Petril.
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -73,7 +73,8 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
         Some("net") => tina::read,
         Some("pnml") => pnml::read,
         _ => {
-            let message = format!("`{}` is no net that can be read: its name must end with .net or .pnml", path.display());
+            let message =
+                format!("`{}` is no net that can be read: its name must end with .net or .pnml", path.display());
             return Err(Failure::Message(message));
         }
     };
@@ -113,12 +114,31 @@ pub fn requirements(
     view: View,
     console: &Console,
 ) -> Result<Vec<(Requirement, Bound)>, Failure> {
-    let mut bound: Vec<(Requirement, Bound)> = Vec::new();
     let mut failed = false;
-    let mut add = |requirements: Vec<Requirement>, mut diagnostics: Vec<Diagnostic>, source: &Source| {
+    let mut texts = Vec::new();
+    for (i, formula) in formulas.iter().enumerate() {
+        let source = Source::new(format!("requirement {}", i + 1), formula.as_str());
+        texts.push(match parse_formula(&format!("r{}", i + 1), &source) {
+            Ok(requirement) => (vec![requirement], vec![], source),
+            Err(error) => (vec![], vec![error], source),
+        });
+    }
+    for file in files {
+        match source(file.as_ref(), MAX_TEXT, console) {
+            Ok(source) => {
+                let (requirements, diagnostics) = parse_requirements(&source);
+                texts.push((requirements, diagnostics, source));
+            }
+            Err(Failure::Reported) => failed = true,
+            Err(failure) => return Err(failure),
+        }
+    }
+    let mut bound: Vec<(Requirement, Bound)> = Vec::new();
+    for (requirements, mut diagnostics, source) in texts {
+        let others = bound.len();
         for requirement in requirements {
-            if bound.iter().any(|(earlier, _)| earlier.name.eq_ignore_ascii_case(&requirement.name)) {
-                let message = format!("a requirement named `{}` is in another file already", requirement.name);
+            if bound[..others].iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
+                let message = format!("a requirement named `{}` was given already", requirement.name);
                 diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message));
             }
             match bind(&requirement.formula, system, view) {
@@ -127,25 +147,8 @@ pub fn requirements(
             }
         }
         diagnostics.sort_by_key(Diagnostic::span);
-        console.diagnostics(&diagnostics, source);
+        console.diagnostics(&diagnostics, &source);
         failed |= any_error(&diagnostics);
-    };
-    for (i, formula) in formulas.iter().enumerate() {
-        let source = Source::new(format!("requirement {}", i + 1), formula.as_str());
-        match parse_formula(&format!("r{}", i + 1), &source) {
-            Ok(requirement) => add(vec![requirement], vec![], &source),
-            Err(error) => add(vec![], vec![error], &source),
-        }
-    }
-    for file in files {
-        match source(file.as_ref(), MAX_TEXT, console) {
-            Ok(source) => {
-                let (requirements, diagnostics) = parse_requirements(&source);
-                add(requirements, diagnostics, &source);
-            }
-            Err(Failure::Reported) => failed = true,
-            Err(failure) => return Err(failure),
-        }
     }
     if failed { Err(Failure::Reported) } else { Ok(bound) }
 }

@@ -21,7 +21,8 @@ impl Text<'_> {
     /// The whole report.
     pub fn report(&self, report: &Report) -> String {
         let program = &self.system.program;
-        let mut out = format!("program `{}` from {}, {} lines of flat code\n\n", program.name, self.source.name(), program.end());
+        let mut out =
+            format!("program `{}` from {}, {} lines of flat code\n\n", program.name, self.source.name(), program.end());
         out += &indent(&self.size().to_string());
         out += "\n";
         out += &self.exploration(report);
@@ -95,7 +96,9 @@ impl Text<'_> {
             }
             Outcome::Holds { witness: Some(Witness { trace, .. }), .. } => {
                 out += &match trace {
-                    Trace::Scans(trace) => format!("    shown by a run of {} scans (--witnesses prints it)\n", trace.scans.len()),
+                    Trace::Scans(trace) => {
+                        format!("    shown by a run of {} scans (--witnesses prints it)\n", trace.scans.len())
+                    }
                     Trace::Firings(trace) => {
                         format!("    shown by a run of {} firings (--witnesses prints it)\n", trace.firings.len())
                     }

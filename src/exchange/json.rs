@@ -51,7 +51,9 @@ fn answer(system: &System, answer: &Answer, view: View) -> Value {
     let witness = answer.outcome.witness();
     let reason = match &answer.outcome {
         Outcome::Unknown(reason) => Some(reason.clone()),
-        Outcome::Holds { vacuous: Some(premise), .. } => Some(format!("vacuous: `{premise}` is true in no reachable state")),
+        Outcome::Holds { vacuous: Some(premise), .. } => {
+            Some(format!("vacuous: `{premise}` is true in no reachable state"))
+        }
         Outcome::Holds { .. } => None,
         Outcome::Violated(witness) => {
             Some(witness.notes.iter().map(|note| note.sentence(view)).collect::<Vec<_>>().join("; "))
@@ -83,9 +85,10 @@ fn scans(system: &System, trace: &ScanTrace) -> Value {
     let one = |(position, scan): (usize, &Scan)| {
         let name = |id: VarId| system.program.variable(id).name.clone();
         let values = |role| -> Map<String, Value> {
-            let end = scan.end.iter().flat_map(|end| {
-                system.program.with_role(role).map(|id| (name(id), Value::Bool(end.memory[id.0])))
-            });
+            let end = scan
+                .end
+                .iter()
+                .flat_map(|end| system.program.with_role(role).map(|id| (name(id), Value::Bool(end.memory[id.0]))));
             end.collect()
         };
         let inputs: Map<String, Value> =

@@ -36,16 +36,19 @@ impl Builder {
     /// Adds a transition. A place it both takes from and puts to becomes a place it reads; a place it reads and also
     /// takes from is only taken from, since that asks for the same token.
     pub fn transition(&mut self, name: impl Into<String>, arcs: Arcs) -> TransitionId {
-        let Arcs { mut consume, mut produce, mut read } = arcs;
-        let loops: Vec<PlaceId> = consume.iter().copied().filter(|place| produce.contains(place)).collect();
-        consume.retain(|place| !loops.contains(place));
-        produce.retain(|place| !loops.contains(place));
-        read.retain(|place| !consume.contains(place));
-        read.extend(loops);
-        for list in [&mut consume, &mut produce, &mut read] {
+        let sorted = |mut list: Vec<PlaceId>| {
             list.sort_unstable();
             list.dedup();
-        }
+            list
+        };
+        let has = |list: &[PlaceId], place: &PlaceId| list.binary_search(place).is_ok();
+        let (mut consume, mut produce, mut read) = (sorted(arcs.consume), sorted(arcs.produce), sorted(arcs.read));
+        read.retain(|place| !has(&consume, place));
+        let loops: Vec<PlaceId> = consume.iter().copied().filter(|place| has(&produce, place)).collect();
+        consume.retain(|place| !has(&loops, place));
+        produce.retain(|place| !has(&loops, place));
+        read.extend(loops);
+        let read = sorted(read);
         self.net.transitions.push(Transition { name: name.into(), arcs: Arcs { consume, produce, read } });
         TransitionId::at(self.net.transitions.len() - 1)
     }

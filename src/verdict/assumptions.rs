@@ -6,7 +6,8 @@ use crate::translate::System;
 /// The assumptions about a system; `fair` says that only runs in which the PLC keeps scanning were considered.
 pub fn assumptions(system: &System, fair: bool) -> Vec<String> {
     let program = &system.program;
-    let names = |ids: Vec<VarId>| ids.iter().map(|&id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ");
+    let names =
+        |ids: Vec<VarId>| ids.iter().map(|&id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ");
     let mut assumptions = vec!["the PLC starts cold: every variable has its initial value".to_owned()];
     for (i, component) in system.plant.components.iter().enumerate() {
         let driven = program.with_role(Role::Input).filter(|&id| system.plant.driver(id) == Some(i)).collect();

@@ -4,6 +4,7 @@
 pub mod naive_ctl;
 pub mod random_formula;
 pub mod random_program;
+pub mod systems;
 
 use petril::flat::{FlatProgram, flatten};
 use petril::logic::{Bound, View, bind, parse_formula};

@@ -1,0 +1,85 @@
+//! One position for each node of a system net, for tools that show nets and do not place them.
+//!
+//! The control places stand in the first column in the order in which the token passes them; half a row below each stand the
+//! transitions that take the token there. On the right come the bits, one variable a row, and then the plant, one component
+//! below the other.
+
+use super::control::Control;
+use crate::translate::{PlaceRole, System, TransitionRole};
+
+/// Distance of neighbouring columns.
+const COLUMN: i32 = 140;
+/// Distance of neighbouring rows.
+const ROW: i32 = 100;
+/// Distance of the first node from both edges.
+const MARGIN: i32 = 60;
+
+/// A position in the plane, in the units of PNML: x to the right, y down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Point {
+    /// To the right.
+    pub x: i32,
+    /// Down.
+    pub y: i32,
+}
+
+/// One position for each node of a net, no two the same.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Positions {
+    /// By position of the place.
+    pub places: Vec<Point>,
+    /// By position of the transition.
+    pub transitions: Vec<Point>,
+}
+
+impl Positions {
+    /// Places the nodes of a system.
+    #[must_use]
+    pub fn of(system: &System) -> Self {
+        let control = Control::of(system);
+        let mut in_row = vec![0; control.len()];
+        for row in system.transitions.iter().filter_map(|&role| control.of_transition(role)) {
+            in_row[row] += 1;
+        }
+        let bits = 2 + in_row.iter().max().copied().unwrap_or(0);
+        let plant = bits + 3;
+        let tops = component_tops(system);
+
+        let mut in_component = vec![0; tops.len()];
+        let places = system.places.iter().map(|&role| match role {
+            PlaceRole::Idle | PlaceRole::Copy(_) | PlaceRole::Line(_) => {
+                point(0, 2 * control.of_place(role).unwrap_or_default())
+            }
+            PlaceRole::Result(value) => point(bits + usize::from(value), 0),
+            PlaceRole::Bit { variable, value } => point(bits + usize::from(value), 2 * (1 + variable.0)),
+            PlaceRole::Blocking(component) => point(plant + 1, 2 * tops[component] + 1),
+            PlaceRole::Plant(component) => {
+                in_component[component] += 1;
+                point(plant, 2 * (tops[component] + in_component[component] - 1))
+            }
+        });
+        let mut column = vec![0; control.len()];
+        let transitions = system.transitions.iter().map(|&role| match (role, control.of_transition(role)) {
+            (TransitionRole::Plant { component, transition }, _) => {
+                point(plant + 2, 2 * (tops[component] + transition) + 1)
+            }
+            (_, row) => {
+                let row = row.unwrap_or_default();
+                column[row] += 1;
+                point(column[row], 2 * row + 1)
+            }
+        });
+        Self { places: places.collect(), transitions: transitions.collect() }
+    }
+}
+
+/// The row in which each component of the plant begins.
+fn component_tops(system: &System) -> Vec<usize> {
+    let heights = system.plant.components.iter().map(|c| c.places.len().max(c.transitions.len()) + 1);
+    heights.scan(0, |top, height| Some(std::mem::replace(top, *top + height))).collect()
+}
+
+/// A node in a column and half row.
+fn point(column: usize, half_row: usize) -> Point {
+    Point { x: MARGIN + COLUMN * column as i32, y: MARGIN + ROW / 2 * half_row as i32 }
+}

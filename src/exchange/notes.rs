@@ -1,0 +1,87 @@
+//! What can be said about the nodes of a net beside its structure.
+
+use crate::source::Source;
+use crate::translate::{Part, PlaceRole, System, TransitionRole};
+
+/// What there is to say about one node: pairs of a word and a value, in the order to be written.
+pub type Note = Vec<(&'static str, String)>;
+
+/// A note on every node of a net.
+#[derive(Clone, Debug, Default)]
+pub struct Notes {
+    /// By position of the place.
+    pub places: Vec<Note>,
+    /// By position of the transition.
+    pub transitions: Vec<Note>,
+}
+
+impl Notes {
+    /// What the nodes of a system net stand for; `source` is the program's text. Lines of code and of text count from 1.
+    #[must_use]
+    pub fn of(system: &System, source: &Source) -> Self {
+        let places = system.places.iter().map(|&role| place(system, source, role)).collect();
+        let transitions = system.transitions.iter().map(|&role| transition(system, source, role)).collect();
+        Self { places, transitions }
+    }
+}
+
+fn note(part: Part, role: &'static str) -> Note {
+    vec![("part", part.name().to_owned()), ("role", role.to_owned())]
+}
+
+fn place(system: &System, source: &Source, role: PlaceRole) -> Note {
+    let variable = |id| ("variable", system.program.variable(id).name.clone());
+    let component = |index: usize| ("component", system.plant.components[index].name.clone());
+    let word = match role {
+        PlaceRole::Bit { .. } => "variable",
+        PlaceRole::Result(_) => "result",
+        PlaceRole::Line(_) => "line",
+        PlaceRole::Idle => "idle",
+        PlaceRole::Copy(_) => "copy",
+        PlaceRole::Blocking(_) => "blocking",
+        PlaceRole::Plant(_) => "plant",
+    };
+    let mut note = note(role.part(), word);
+    match role {
+        PlaceRole::Bit { variable: id, value } => note.extend([variable(id), self::value(value)]),
+        PlaceRole::Result(value) => note.push(self::value(value)),
+        PlaceRole::Line(line) => note.extend(self::line(system, source, line)),
+        PlaceRole::Idle => {}
+        PlaceRole::Copy(id) => note.push(variable(id)),
+        PlaceRole::Blocking(index) | PlaceRole::Plant(index) => note.push(component(index)),
+    }
+    note
+}
+
+fn transition(system: &System, source: &Source, role: TransitionRole) -> Note {
+    let word = match role {
+        TransitionRole::Line(_) => "line",
+        TransitionRole::Block => "block",
+        TransitionRole::Copy { .. } => "copy",
+        TransitionRole::Unblock => "unblock",
+        TransitionRole::Plant { .. } => "plant",
+    };
+    let mut note = note(role.part(), word);
+    match role {
+        TransitionRole::Line(line) => note.extend(self::line(system, source, line)),
+        TransitionRole::Copy { variable, value } => {
+            note.extend([("variable", system.program.variable(variable).name.clone()), self::value(value)]);
+        }
+        TransitionRole::Plant { component, .. } => {
+            note.push(("component", system.plant.components[component].name.clone()));
+        }
+        TransitionRole::Block | TransitionRole::Unblock => {}
+    }
+    note
+}
+
+fn value(value: bool) -> (&'static str, String) {
+    ("value", u8::from(value).to_string())
+}
+
+/// The line of code, and the line of the program's text it comes from; `End` comes from none.
+fn line(system: &System, source: &Source, line: usize) -> Note {
+    let code = system.program.code.get(line);
+    let from = code.map(|code| ("source-line", source.line_of(code.span.start).to_string()));
+    [("line", (line + 1).to_string())].into_iter().chain(from).collect()
+}

@@ -1,0 +1,16 @@
+//! PNML, place/transition nets (ISO/IEC 15909-2).
+//!
+//! Read are nets over several pages, with reference nodes, with or without graphics; tool sections of others do not count.
+//! A node is called by its name, or by its id if it has no name or shares it with an earlier node.
+
+mod contents;
+mod label;
+mod read;
+mod references;
+mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use read::read;
+pub use write::write;

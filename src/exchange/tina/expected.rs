@@ -1,0 +1,87 @@
+//! What the grammar expected, in the words of the format.
+
+use pest::Parser;
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use super::read::{Rule, TinaParser};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+/// The words a line can begin with.
+const WORDS: [&str; 3] = ["net", "pl", "tr"];
+
+/// Says why a line cannot be read. `start` is its offset in the whole text.
+pub fn explain(line: &str, start: usize) -> Diagnostic {
+    let diagnostic = match TinaParser::parse(Rule::lone_line, line) {
+        Err(error) => diagnostic(&error, start),
+        Ok(_) => Diagnostic::new(Code::NetSyntax, Span::new(start, start + line.len()), "this cannot stand here"),
+    };
+    let at = diagnostic.span().start - start;
+    let (before, rest) = line.split_at_checked(at).unwrap_or((line, ""));
+    let word = line.split_whitespace().next().unwrap_or_default();
+    if before.trim().is_empty() {
+        return diagnostic
+            .suggest(word, WORDS)
+            .help("a line is `net NAME`, `pl PLACE (1)` or `tr NAME PLACES -> PLACES`");
+    }
+    if rest.starts_with('{') {
+        return diagnostic
+            .help("a name in braces ends with `}`; a brace or backslash inside it is written `\\{`, `\\}`, `\\\\`");
+    }
+    if rest.starts_with(['?', '!']) {
+        return diagnostic.help("only arcs to a transition can test: write the test before `->`");
+    }
+    let glued = before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_' || c == '\'');
+    if glued && !rest.is_empty() || rest.starts_with(|c: char| c.is_alphanumeric() && !c.is_ascii()) {
+        return diagnostic.help("put a name with other characters than letters, digits, `_` and `'` in braces");
+    }
+    match word {
+        "pl" => diagnostic.help("write a place as `pl NAME (1)`, and its arcs in the lines of the transitions"),
+        "tr" => diagnostic.help("write a transition as `tr NAME PLACES -> PLACES` on one line"),
+        _ => diagnostic,
+    }
+}
+
+/// A pest error as a diagnostic.
+pub fn diagnostic(error: &Error<Rule>, start: usize) -> Diagnostic {
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    };
+    let rest = error.line().get(column(error)..).unwrap_or("");
+    let found = rest.split_whitespace().next();
+    let span = Span::new(start + at, start + at + found.map_or(0, str::len));
+    let found = found.map_or_else(|| "the end of the line".to_owned(), |word| format!("`{word}`"));
+    let message = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => {
+            let mut names: Vec<&str> = positives.iter().filter_map(|&rule| name(rule)).collect();
+            names.dedup();
+            match names.split_last() {
+                None => format!("{found} cannot stand here"),
+                Some((last, [])) => format!("expected {last}, found {found}"),
+                Some((last, others)) => format!("expected {} or {last}, found {found}", others.join(", ")),
+            }
+        }
+        ErrorVariant::CustomError { message } => message.clone(),
+    };
+    Diagnostic::new(Code::NetSyntax, span, message)
+}
+
+/// Byte offset of the error in its line.
+fn column(error: &Error<Rule>) -> usize {
+    let (pest::error::LineColLocation::Pos((_, column)) | pest::error::LineColLocation::Span((_, column), _)) =
+        error.line_col;
+    error.line().char_indices().nth(column - 1).map_or(error.line().len(), |(i, _)| i)
+}
+
+/// The names of the rules a user knows. Labels, intervals and weights are rare, so nobody is told that one could come.
+fn name(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
+        Rule::EOI | Rule::eol => "the end of the line",
+        Rule::lone_line => "`net`, `pl` or `tr`",
+        Rule::bare | Rule::braced | Rule::input | Rule::output => "a name",
+        Rule::number => "a number",
+        Rule::marking => "a marking like `(1)`",
+        Rule::arrow => "`->`",
+        _ => return None,
+    })
+}

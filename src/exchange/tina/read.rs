@@ -1,0 +1,119 @@
+//! The front door: text to net, or every error of the text.
+
+use std::collections::HashMap;
+
+use pest::Parser;
+use pest::iterators::Pair;
+use pest_derive::Parser;
+
+use super::consume::{self, Declaration, Direction, Name};
+use super::expected;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, file_stem};
+use crate::net::Located;
+use crate::source::{Source, Span};
+
+#[derive(Parser)]
+#[grammar = "../grammar/tina.pest"]
+pub(super) struct TinaParser;
+
+/// Reads a net. Places are numbered by first appearance, transitions by definition; a net without a `net` line is named
+/// after its file.
+///
+/// # Errors
+/// Every line that cannot be read, every node defined twice, and everything a safe place/transition net does not have:
+/// weights, inhibitor and stopwatch arcs, several tokens, time, priorities.
+pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
+    let mut diagnostics = Vec::new();
+    let mut assembly = Assembly::default();
+    match TinaParser::parse(Rule::file, source.text()) {
+        Ok(file) => {
+            for line in file.flat_map(Pair::into_inner) {
+                if let Some(declaration) = consume::declaration(line, &mut diagnostics) {
+                    assembly.add(declaration, &mut diagnostics);
+                }
+            }
+        }
+        // The grammar reads any text, so this is a limit of the parser itself.
+        Err(error) => diagnostics.push(expected::diagnostic(&error, 0)),
+    }
+    assembly.draft.parallel_arcs(&mut diagnostics);
+    if diagnostics.is_empty() {
+        let name = assembly.name.map_or_else(|| file_stem(source), |name| name.text);
+        return Ok(assembly.draft.finish(name));
+    }
+    diagnostics.sort_by_key(Diagnostic::span);
+    Err(diagnostics)
+}
+
+/// The net so far, and what its names stand for.
+#[derive(Default)]
+struct Assembly {
+    name: Option<Name>,
+    draft: Draft,
+    places: HashMap<String, usize>,
+    /// Where each place is declared, if it is so far.
+    declared: Vec<Option<Span>>,
+    transitions: HashMap<String, Span>,
+}
+
+impl Assembly {
+    fn add(&mut self, declaration: Declaration, diagnostics: &mut Vec<Diagnostic>) {
+        match declaration {
+            Declaration::Net(name) => match &self.name {
+                None => self.name = Some(name),
+                Some(first) => diagnostics.push(
+                    Diagnostic::new(Code::NetSyntax, name.span, "this net is named a second time")
+                        .also(first.span, "first named here")
+                        .help("put each net in a file of its own"),
+                ),
+            },
+            Declaration::Place { name, marked } => self.declare(name, marked, diagnostics),
+            Declaration::Transition { name: Name { text, span }, arcs } => {
+                let first = *self.transitions.entry(text.clone()).or_insert(span);
+                if first != span {
+                    diagnostics.push(twice("transition", &text, span, first));
+                }
+                let mut transition = DraftTransition::new(text, span);
+                for (direction, place) in arcs {
+                    let arc = Arc { span: place.span, place: self.place(place) };
+                    match direction {
+                        Direction::Consume => transition.consume.push(arc),
+                        Direction::Read => transition.read.push(arc),
+                        Direction::Produce => transition.produce.push(arc),
+                    }
+                }
+                self.draft.transitions.push(transition);
+            }
+        }
+    }
+
+    fn declare(&mut self, name: Name, marked: bool, diagnostics: &mut Vec<Diagnostic>) {
+        if let Some(&place) = self.places.get(&name.text)
+            && let Some(first) = self.declared[place]
+        {
+            return diagnostics.push(twice("place", &name.text, name.span, first));
+        }
+        let span = name.span;
+        let place = self.place(name);
+        self.declared[place] = Some(span);
+        self.draft.places[place].span = span;
+        self.draft.places[place].marked = marked;
+    }
+
+    /// The place of a name, which may be new.
+    fn place(&mut self, Name { text, span }: Name) -> usize {
+        if let Some(&place) = self.places.get(&text) {
+            return place;
+        }
+        self.places.insert(text.clone(), self.draft.places.len());
+        self.draft.places.push(DraftPlace { name: text, span, marked: false });
+        self.declared.push(None);
+        self.draft.places.len() - 1
+    }
+}
+
+fn twice(kind: &str, name: &str, span: Span, first: Span) -> Diagnostic {
+    let message = format!("the {kind} `{name}` is defined twice");
+    Diagnostic::new(Code::NetReference, span, message).here("defined again").also(first, "first defined here")
+}

@@ -1,0 +1,155 @@
+//! What is read, and what is said about what cannot be read.
+
+use super::read;
+use crate::net::{Arcs, PlaceId};
+use crate::source::Source;
+
+/// Everything that is wrong with a text, as `line:column code message`.
+fn problems(text: &str) -> Vec<String> {
+    let source = Source::new("test.net", text);
+    let errors = read(&source).expect_err(text);
+    let line = |d: &crate::diagnostic::Diagnostic| {
+        let (line, column) = source.line_column(d.span().start);
+        format!("{line}:{column} {} {}", d.code, d.message)
+    };
+    errors.iter().map(line).collect()
+}
+
+/// The one problem of a text of one line, with what is underlined and the last piece of help.
+fn problem(text: &str) -> [String; 3] {
+    let errors = read(&Source::new("test.net", text)).expect_err(text);
+    assert_eq!(errors.len(), 1, "{text}: {errors:?}");
+    let [error] = &errors[..] else { panic!("{text}") };
+    let help = error.help.last().cloned().unwrap_or_default();
+    [error.message.clone(), text[error.span().range()].to_owned(), help]
+}
+
+#[test]
+fn every_declaration_of_the_format_is_read() {
+    let text = "# a comment\n\
+        tr {t 1} : {a label} [0,w[ p*1 {q\\}}?1 -> q'2 # another\n\
+        net {two words}\n\
+        pl p : label (1)\r\n\
+        pl unused\n\
+        \t pl {q\\}}(0)\n\
+        nt n 1 {a note}\n\
+        lb p {an old label}\n\
+        tr none\n\
+        tr source->p\n\
+        tr p p ->";
+    let source = Source::new("folder/file.net", text);
+    let file = read(&source).unwrap();
+    let net = &file.net;
+    assert_eq!(net.name(), "two words");
+    let places: Vec<_> = net.places().iter().map(|place| (place.name.as_str(), place.marked)).collect();
+    assert_eq!(places, [("p", true), ("q}", false), ("q'2", false), ("unused", false)]);
+    let names: Vec<_> = net.transitions().iter().map(|t| t.name.as_str()).collect();
+    assert_eq!(names, ["t 1", "none", "source", "p"], "a place and a transition may have one name");
+    let [p, q, q2, _] = net.place_ids().collect::<Vec<PlaceId>>()[..] else { panic!("{net:?}") };
+    let arcs = &net.transitions()[0].arcs;
+    assert_eq!(*arcs, Arcs { consume: vec![p], produce: vec![q2], read: vec![q] });
+    let at = |id| source.slice(file.place_span(id));
+    assert_eq!([at(p), at(q), at(q2)], ["p", "{q\\}}", "q'2"]);
+    assert_eq!(source.line_of(file.place_span(p).start), 4, "the declaration, not the first use");
+    assert_eq!(source.line_of(file.place_span(q2).start), 2, "the first use: there is no declaration");
+}
+
+#[test]
+fn a_net_without_a_name_is_called_after_its_file() {
+    assert_eq!(read(&Source::new("some/folder/doors.net", "pl p")).unwrap().net.name(), "doors");
+    assert_eq!(read(&Source::new("-", "")).unwrap().net.name(), "-");
+}
+
+#[test]
+fn every_bad_line_is_reported_and_the_others_are_still_looked_at() {
+    let text = "net a\nnet b\npl p (2)\nfoo\npl q\ntr t p*2 -> p\ntr u p\npl q (1)\ntr t -> q\n\ntr v q -> q q # q\npr t > u\n";
+    assert_eq!(
+        problems(text),
+        [
+            "2:5 E0401 this net is named a second time",
+            "3:6 E0402 the place `p` has 2 tokens at the beginning",
+            "4:1 E0401 expected `net`, `pl` or `tr`, found `foo`",
+            "6:6 E0402 this arc has weight 2",
+            "7:7 E0401 expected `->` or a name, found the end of the line",
+            "8:4 E0403 the place `q` is defined twice",
+            "9:4 E0403 the transition `t` is defined twice",
+            "11:13 E0402 two arcs join `q` and `v` in the same direction",
+            "12:1 E0402 priorities between transitions are not part of place/transition nets",
+        ]
+    );
+}
+
+#[test]
+fn what_a_safe_net_does_not_have_is_refused_by_name() {
+    let table = [
+        ("tr t p*2 -> q", "this arc has weight 2", "p*2"),
+        ("tr t p -> q*1K", "this arc has weight 1K", "q*1K"),
+        ("tr t p*0 -> q", "this arc has weight 0", "p*0"),
+        ("tr t p?3 -> q", "this arc tests for 3 tokens", "p?3"),
+        ("tr t p?-1 -> q", "an inhibitor arc is not part of place/transition nets", "p?-1"),
+        ("tr t p!1 -> q", "a stopwatch arc makes this a time net", "p!1"),
+        ("tr t p!-1 -> q", "a stopwatch arc makes this a time net", "p!-1"),
+        ("tr t [1,2] p -> q", "the interval `[1,2]` makes this a time net", "[1,2]"),
+        ("tr t ]0,w[ p -> q", "the interval `]0,w[` makes this a time net", "]0,w["),
+        ("tr t p p -> q", "two arcs join `p` and `t` in the same direction", "p"),
+        ("tr t p -> q q", "two arcs join `q` and `t` in the same direction", "q"),
+        ("pl p (007)", "the place `p` has 7 tokens at the beginning", "(007)"),
+        ("tr t p*0M -> q", "this arc has weight 0", "p*0M"),
+        ("pl p (1K)", "the place `p` has 1K tokens at the beginning", "(1K)"),
+        ("pr a b < c", "priorities between transitions are not part of place/transition nets", "pr a b < c"),
+    ];
+    for (text, message, underlined) in table {
+        assert_eq!(problem(text)[..2], [message, underlined], "{text}");
+    }
+}
+
+#[test]
+fn help_fits_the_slip() {
+    let names = "put a name with other characters than letters, digits, `_` and `'` in braces";
+    let braces = "a name in braces ends with `}`; a brace or backslash inside it is written `\\{`, `\\}`, `\\\\`";
+    let table = [
+        ("pl S1=0 (1)", "expected the end of the line or a marking like `(1)`, found `=0`", names),
+        ("tr t ä -> q", "expected the end of the line, `->` or a name, found `ä`", names),
+        ("pl {S1=0 (1)", "expected a name, found `{S1=0`", braces),
+        ("pl {S1{0} (1)", "expected a name, found `{S1{0}`", braces),
+        (
+            "pl p t -> u",
+            "expected the end of the line or a marking like `(1)`, found `t`",
+            "write a place as `pl NAME (1)`, and its arcs in the lines of the transitions",
+        ),
+        (
+            "tr t p q",
+            "expected `->` or a name, found the end of the line",
+            "write a transition as `tr NAME PLACES -> PLACES` on one line",
+        ),
+        (
+            "tr t p -> q?1",
+            "expected the end of the line or a name, found `?1`",
+            "only arcs to a transition can test: write the test before `->`",
+        ),
+        (
+            "trr t p -> q",
+            "expected `net`, `pl` or `tr`, found `trr`",
+            "a line is `net NAME`, `pl PLACE (1)` or `tr NAME PLACES -> PLACES`",
+        ),
+    ];
+    for (text, message, help) in table {
+        let [found, _, last_help] = problem(text);
+        assert_eq!([found.as_str(), last_help.as_str()], [message, help], "{text}");
+    }
+}
+
+#[test]
+fn long_and_hostile_texts_are_read_to_the_end() {
+    let n = 20_000;
+    let lines: String = (0..n).map(|i| format!("pl p{i} (1)\ntr t{i} p{i} -> q{i}\n")).collect();
+    let net = read(&Source::new("n", lines)).unwrap().net;
+    assert_eq!((net.places().len(), net.transitions().len()), (2 * n, n));
+    let count = |text: String| read(&Source::new("n", text)).map_or_else(|errors| errors.len(), |_| 0);
+    assert_eq!(count("pl {a\n".repeat(n)), n);
+    assert_eq!(count("{".repeat(n)), 1);
+    assert_eq!(count(format!("pl {}", "{\\{".repeat(n))), 1);
+    assert_eq!(count(format!("tr t {}", "-> ".repeat(n))), 1);
+    assert_eq!(count("\n".repeat(n)), 0);
+    assert_eq!(count("#".repeat(n)), 0);
+}
