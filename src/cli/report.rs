@@ -4,7 +4,7 @@ use petril::logic::View;
 use petril::source::Source;
 use petril::translate::{Part, System};
 use petril::verdict::{Answer, Outcome, Report, Trace, Verdict, Witness};
-use petril::witness::{Column, Table, firing_table, line_by_line, scan_table};
+use petril::witness::{Column, FiringTrace, ScanTrace, Table, firing_table, line_by_line, scan_table};
 
 use super::args::Check;
 use super::console::{Colour, Console};
@@ -60,14 +60,14 @@ impl Text<'_> {
 
     fn exploration(&self, report: &Report) -> String {
         let exploration = &report.exploration;
-        let (view, states, depth) = match exploration.view {
-            View::Scan => ("scan view", "states at the end of a scan", "scans"),
-            View::Transition => ("transition view", "reachable markings", "firings"),
+        let (states, steps, depth) = (exploration.states, exploration.steps, exploration.depth);
+        let mut out = match exploration.view {
+            View::Scan => format!("scan view: {states} states at the end of a scan, {steps} steps, {depth} scans deep"),
+            View::Transition => {
+                format!("transition view: {states} reachable markings, {steps} firings, {depth} firings deep")
+            }
         };
-        let mut out = format!(
-            "{view}: {} {states}, {} steps, every state within {} {depth}: {}\n",
-            exploration.states, exploration.steps, exploration.depth, exploration.stop
-        );
+        out += &format!("; {}\n", exploration.stop);
         for assumption in &report.assumptions {
             out += &format!("assumed: {assumption}\n");
         }
@@ -95,14 +95,11 @@ impl Text<'_> {
                 out += &self.witness(witness, report);
             }
             Outcome::Holds { witness: Some(Witness { trace, .. }), .. } => {
-                out += &match trace {
-                    Trace::Scans(trace) => {
-                        format!("    shown by a run of {} scans (--witnesses prints it)\n", trace.scans.len())
-                    }
-                    Trace::Firings(trace) => {
-                        format!("    shown by a run of {} firings (--witnesses prints it)\n", trace.firings.len())
-                    }
+                let (length, unit) = match trace {
+                    Trace::Scans(trace) => (trace.scans.len(), "scan"),
+                    Trace::Firings(trace) => (trace.firings.len(), "firing"),
                 };
+                out += &format!("    shown by a run of {} (--witnesses prints it)\n", counted(length, unit));
             }
             Outcome::Holds { .. } => {}
             Outcome::Violated(witness) => out += &self.witness(witness, report),
@@ -118,6 +115,18 @@ impl Text<'_> {
         let mut out = format!("\n{}\n", indent(&table.to_string()));
         for note in &witness.notes {
             out += &format!("    {}\n", note.sentence(report.exploration.view));
+        }
+        match &witness.trace {
+            Trace::Scans(ScanTrace { scans, loop_start: Some(start) }) => {
+                let (last, first) = (scans.len(), start + 1);
+                out += &format!("    and so on for ever: scan {last} ends in the state in which scan {first} ended\n");
+            }
+            Trace::Firings(FiringTrace { firings, loop_start: Some(start) }) => {
+                let last = firings.len();
+                out +=
+                    &format!("    and so on for ever: firing {last} leads back to the marking after firing {start}\n");
+            }
+            _ => {}
         }
         if let (Trace::Scans(trace), true) = (&witness.trace, self.arguments.by_line) {
             let last = trace.scans.len() - 1;
@@ -137,9 +146,14 @@ fn summary(report: &Report) -> String {
             let mut parts = vec![format!("{holds} hold")];
             parts.extend((violated > 0).then(|| format!("{violated} violated")));
             parts.extend((unknown > 0).then(|| format!("{unknown} unknown")));
-            format!("{n} requirements: {}\n", parts.join(", "))
+            format!("{}: {}\n", counted(n, "requirement"), parts.join(", "))
         }
     }
+}
+
+/// A number of things: `1 scan`, `2 scans`.
+fn counted(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 
 /// Indents every line that is not empty.

@@ -4,10 +4,12 @@
 //! terminal prints it.
 
 mod code;
+mod expected;
 mod render;
 mod suggest;
 
 pub use code::{Code, Severity};
+pub use expected::expected;
 pub use render::{Style, render};
 pub use suggest::nearest;
 

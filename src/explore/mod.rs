@@ -18,6 +18,6 @@ pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
 pub use graph::Graph;
 pub use marking_space::MarkingSpace;
-pub use scan_space::{ScanSpace, ScanState};
+pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
 pub use space::{Failure, StateSpace, Step};

@@ -48,6 +48,17 @@ pub struct ScanState {
     pub memory: Vec<bool>,
 }
 
+/// One scan that was computed.
+#[derive(Clone, Copy, Debug)]
+pub struct ScanRun<'a> {
+    /// The marking of each plant component during the scan.
+    pub plant: &'a [usize],
+    /// The machine at its end, or somewhere in the loop it never leaves.
+    pub machine: &'a Machine<'a>,
+    /// The packed state at its end, or why there is none.
+    pub end: Result<&'a [u64], Fault>,
+}
+
 impl<'s> ScanSpace<'s> {
     /// The space of a system.
     #[must_use]
@@ -119,9 +130,8 @@ impl<'s> ScanSpace<'s> {
             .collect()
     }
 
-    /// Calls `visit` for the scan from a state under each choice of plant markings and free inputs: the markings and inputs,
-    /// and the packed end state or why there is none.
-    pub fn scans(&self, from: &ScanState, visit: &mut dyn FnMut(&[usize], &Machine<'_>, Result<&[u64], Fault>)) {
+    /// Calls `visit` for the scan from a state under each choice of plant markings and free inputs.
+    pub fn scans(&self, from: &ScanState, visit: &mut dyn FnMut(ScanRun<'_>)) {
         let choices = self.plant_choices(from);
         let mut state = vec![0; self.words];
         let mut machine = Machine::new(&self.system.program);
@@ -139,13 +149,9 @@ impl<'s> ScanSpace<'s> {
                 for (bit, &input) in self.free_inputs.iter().rev().enumerate() {
                     machine.set(input, free >> bit & 1 == 1);
                 }
-                match machine.scan() {
-                    Ok(()) => {
-                        self.pack(&plant, &machine, &mut state);
-                        visit(&plant, &machine, Ok(&state));
-                    }
-                    Err(fault) => visit(&plant, &machine, Err(fault)),
-                }
+                let result = machine.scan();
+                self.pack(&plant, &machine, &mut state);
+                visit(ScanRun { plant: &plant, machine: &machine, end: result.map(|()| state.as_slice()) });
             }
             // The next combination of plant markings, the last component fastest.
             let Some(turn) = odometer.iter().zip(&choices).rposition(|(&digit, choice)| digit + 1 < choice.len())
@@ -164,11 +170,11 @@ impl StateSpace for ScanSpace<'_> {
     }
 
     fn initial(&self, visit: &mut dyn FnMut(Step<'_>)) {
-        self.scans(&self.power_on(), &mut |_, _, end| visit(step(end)));
+        self.scans(&self.power_on(), &mut |run| visit(step(run.end)));
     }
 
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>)) {
-        self.scans(&self.unpack(state), &mut |_, _, end| visit(step(end)));
+        self.scans(&self.unpack(state), &mut |run| visit(step(run.end)));
     }
 
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {

@@ -199,10 +199,10 @@ impl Explainer<'_> {
         let within = self.labels.of(f);
         let endings = endings(self.graph, within, self.fair);
         let Some(stem) = shortest(self.graph, state, within, false, |s| endings.contains(s as usize)) else { return };
+        self.claim(f);
         self.walk(f, &stem);
         let knot = stem.last().copied().unwrap_or(state);
         let loop_start = self.evidence.states.len() - 1;
-        self.claim(f);
         let components = components(self.graph, within);
         if !components.on_cycle(knot) {
             return;
@@ -223,8 +223,8 @@ impl Explainer<'_> {
     /// Appends states to the path, all with f.
     fn walk(&mut self, f: NodeId, states: &[u32]) {
         for &state in states {
-            self.claim(f);
             self.evidence.states.push(state);
+            self.claim(f);
         }
     }
 }

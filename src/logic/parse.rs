@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use pest::Parser;
-use pest::error::{ErrorVariant, InputLocation};
+use pest::error::Error;
 use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
 
 use super::formula::{Comparison, Expression, Formula, Quantifier, Temporal};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{Source, Span};
 use crate::syntax::ast::key;
 
@@ -254,28 +254,11 @@ fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
     }
 }
 
-fn diagnostic(error: &pest::error::Error<Rule>, text: &str, start: usize) -> Diagnostic {
-    let at = match error.location {
-        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
-    };
-    let word: &str = text[at..].split_whitespace().next().unwrap_or("");
-    let found = if word.is_empty() { "the end".to_owned() } else { format!("`{word}`") };
-    let span = Span::new(start + at, start + at + word.len());
-    let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
-        return Diagnostic::new(Code::RequirementSyntax, span, error.variant.message());
-    };
-    let mut names: Vec<&str> = positives.iter().filter_map(|&rule| expected(rule)).collect();
-    names.sort_unstable();
-    names.dedup();
-    let message = match names.split_last() {
-        None => format!("{found} cannot stand here"),
-        Some((last, [])) => format!("expected {last}, found {found}"),
-        Some((last, others)) => format!("expected {} or {last}, found {found}", others.join(", ")),
-    };
-    Diagnostic::new(Code::RequirementSyntax, span, message)
+fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
+    diagnostic::expected(error, (text, start), Code::RequirementSyntax, "the end", name)
 }
 
-fn expected(rule: Rule) -> Option<&'static str> {
+fn name(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI => "the end",
         Rule::keyword => "`requirement`",

@@ -110,12 +110,14 @@ impl Dag {
     /// What a node says, as a sentence about a state: "`f` is true", "`f` is false", or the temporal formula.
     #[must_use]
     pub fn sentence(&self, id: NodeId, system: &System) -> String {
-        match self.node(id) {
-            Node::State { formula, negated } => {
-                format!("`{}` is {}", formula.text(system), if *negated { "false" } else { "true" })
-            }
-            _ => format!("`{}` holds", self.set(id, system)),
+        let Node::State { formula, negated } = self.node(id) else {
+            return format!("`{}` holds", self.set(id, system));
+        };
+        let (mut formula, mut truth) = (formula, !negated);
+        while let Bound::Not(inner) = formula {
+            (formula, truth) = (inner, !truth);
         }
+        format!("`{}` is {truth}", formula.text(system))
     }
 
     fn set(&self, id: NodeId, system: &System) -> String {

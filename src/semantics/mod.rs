@@ -84,27 +84,24 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
 
 /// The one PROGRAM of the file. Other units are not called by it (calls are refused), so they are only mentioned.
 fn the_program<'a>(unit: &'a Unit, diagnostics: &mut Vec<Diagnostic>) -> Option<&'a Pou> {
-    let mut program: Option<&Pou> = None;
-    for pou in &unit.pous {
-        match (pou.kind, program) {
-            (PouKind::Program, None) => program = Some(pou),
-            (PouKind::Program, Some(first)) => diagnostics.push(
-                Diagnostic::new(Code::SeveralPrograms, pou.name.span, "this file declares a second program")
-                    .also(first.name.span, "the first is here")
-                    .help("put each program in a file of its own"),
-            ),
-            (kind, _) => {
-                let message = format!("{kind} `{}` is not called by the program and is not checked", pou.name.text);
-                diagnostics.push(Diagnostic::new(Code::PouNotChecked, pou.name.span, message));
-            }
-        }
-    }
-    if let (None, Some(pou)) = (program, unit.pous.first()) {
+    let (programs, others): (Vec<&Pou>, Vec<&Pou>) = unit.pous.iter().partition(|pou| pou.kind == PouKind::Program);
+    let Some(&program) = programs.first() else {
+        let pou = others.first()?;
         let message = format!("this file holds no program, only {} `{}`", pou.kind, pou.name.text);
         diagnostics.push(
             Diagnostic::new(Code::NothingToCheck, pou.name.span, message)
                 .help("add a `PROGRAM`: functions and function blocks do nothing by themselves"),
         );
-    }
-    program
+        return None;
+    };
+    diagnostics.extend(programs[1..].iter().map(|second| {
+        Diagnostic::new(Code::SeveralPrograms, second.name.span, "this file declares a second program")
+            .also(program.name.span, "the first is here")
+            .help("put each program in a file of its own")
+    }));
+    diagnostics.extend(others.iter().map(|pou| {
+        let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
+        Diagnostic::new(Code::PouNotChecked, pou.name.span, message)
+    }));
+    Some(program)
 }

@@ -55,7 +55,7 @@ fn statement(
         },
         Operation::Jump { condition, target: label } => Action::Jump { condition: *condition, target: target(label)? },
         Operation::Return { condition } => Action::Jump { condition: *condition, target: end },
-        Operation::Call { .. } | Operation::Function { .. } => return None,
+        Operation::Call { .. } | Operation::Function { .. } | Operation::Broken => return None,
     };
     Some(Statement { action, span: instruction.span })
 }

@@ -31,7 +31,9 @@ fn undeclared(name: &Name, context: &Context<'_>) -> Option<Diagnostic> {
         return Some(Diagnostic::new(Code::DeclarationNotSupported, name.span, message).help(help));
     }
     let base = name.text.split(['.', '[']).next().unwrap_or_default();
-    if base != name.text && context.symbols.find(base).is_some() {
+    if let Some((_, symbol)) = context.symbols.find(base) {
+        // Of a type that is not supported nothing can be said.
+        symbol.role?;
         let message = format!("`{base}` has no parts, so there is no `{}`", name.text);
         return Some(Diagnostic::new(Code::OperandUnfit, name.span, message));
     }

@@ -12,6 +12,9 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     instructions
         .filter_map(|(instruction, _)| {
             let Some(Operation::Simple { operator, operands }) = &instruction.operation else { return None };
+            if !operator.verb.is_boolean() {
+                return None;
+            }
             let takes = usize::from(operator.verb != Verb::Not);
             let count = |span, message: String| Diagnostic::new(Code::OperandCount, span, message);
             match operands.get(takes) {

@@ -21,8 +21,7 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
             if matches!(operator.verb, Verb::St | Verb::S | Verb::R) {
                 return unfit(format!("`{operator}` writes its operand, so it must be a variable"));
             }
-            let numeric = !matches!(operator.verb, Verb::Ld | Verb::And | Verb::Or | Verb::Xor);
-            if numeric || constant.boolean.is_some() {
+            if !operator.verb.is_boolean() || operator.verb == Verb::Not || constant.boolean.is_some() {
                 return None;
             }
             unfit(format!("`{}` is no value of type `BOOL`", constant.text))

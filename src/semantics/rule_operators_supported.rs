@@ -5,7 +5,7 @@
 
 use super::Context;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{Instruction, Name, Operation, Operator, Verb, with_nested};
+use crate::syntax::ast::{Instruction, Name, Operation, Verb, with_nested};
 
 /// The words an instruction of this version can begin with.
 const WORDS: [&str; 20] = [
@@ -22,7 +22,7 @@ fn refusal(instruction: &Instruction, context: &Context<'_>) -> Option<Diagnosti
         Some(Diagnostic::new(Code::OperatorNotSupported, instruction.span, message).help(help))
     };
     match instruction.operation.as_ref()? {
-        Operation::Simple { operator, .. } | Operation::Parenthesis { operator, .. } if !is_boolean(*operator) => {
+        Operation::Simple { operator, .. } | Operation::Parenthesis { operator, .. } if !operator.verb.is_boolean() => {
             let help = match operator.verb {
                 Verb::S1 | Verb::R1 | Verb::Clk | Verb::Cu | Verb::Cd | Verb::Pv | Verb::In | Verb::Pt => {
                     "it calls a function block, and this version models none"
@@ -45,10 +45,6 @@ fn refusal(instruction: &Instruction, context: &Context<'_>) -> Option<Diagnosti
         }
         _ => None,
     }
-}
-
-fn is_boolean(operator: Operator) -> bool {
-    matches!(operator.verb, Verb::Ld | Verb::St | Verb::S | Verb::R | Verb::Not | Verb::And | Verb::Or | Verb::Xor)
 }
 
 /// A function of this file, or an operator's word used as one.

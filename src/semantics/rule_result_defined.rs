@@ -54,7 +54,7 @@ fn loads(instruction: &Instruction) -> bool {
     match &instruction.operation {
         Some(Operation::Simple { operator, .. }) => operator.verb == Verb::Ld,
         // What these leave behind is for the rule that refuses them.
-        Some(Operation::Call { .. } | Operation::Function { .. }) => true,
+        Some(Operation::Call { .. } | Operation::Function { .. } | Operation::Broken) => true,
         _ => false,
     }
 }
@@ -64,7 +64,7 @@ fn uses(instruction: &Instruction) -> bool {
         Some(Operation::Simple { operator, .. }) => operator.verb != Verb::Ld,
         Some(Operation::Parenthesis { .. }) => true,
         Some(Operation::Jump { condition, .. } | Operation::Return { condition }) => *condition != Condition::Always,
-        Some(Operation::Call { .. } | Operation::Function { .. }) | None => false,
+        Some(Operation::Call { .. } | Operation::Function { .. } | Operation::Broken) | None => false,
     }
 }
 

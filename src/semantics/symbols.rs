@@ -14,7 +14,7 @@ pub struct Symbols<'a> {
 /// A declared name.
 pub struct Symbol<'a> {
     pub name: &'a Name,
-    /// `None` where the declaration is broken or of a kind that is not supported, which is reported elsewhere.
+    /// `None` where the declaration is broken, or of a kind or type that is not supported, which is reported elsewhere.
     pub role: Option<Role>,
     pub initial: Option<&'a Constant>,
 }
@@ -24,7 +24,8 @@ impl<'a> Symbols<'a> {
         let mut symbols = Self { list: Vec::new(), by_key: BTreeMap::new() };
         for block in &pou.blocks {
             for declaration in &block.declarations {
-                let role = role(block).filter(|_| declaration.type_text.is_some());
+                let is_bool = declaration.type_text.as_ref().is_some_and(|written| key(&written.text) == "BOOL");
+                let role = role(block).filter(|_| is_bool);
                 for name in &declaration.names {
                     let id = VarId(symbols.list.len());
                     symbols.by_key.entry(name.key()).or_insert_with(|| {

@@ -214,6 +214,8 @@ pub enum Operation {
         /// The first word.
         name: Name,
     },
+    /// A line that could not be read, which has been reported. It keeps the rules from reporting what follows from that.
+    Broken,
 }
 
 /// An operator with its modifier N.
@@ -252,10 +254,10 @@ impl Verb {
         Self::ALL[self as usize].1
     }
 
-    /// Whether the modifier N exists for it.
+    /// Whether it works on single bits: loads, stores, and the Boolean functions.
     #[must_use]
-    pub fn takes_negation(self) -> bool {
-        matches!(self, Self::Ld | Self::St | Self::And | Self::Or | Self::Xor)
+    pub fn is_boolean(self) -> bool {
+        matches!(self, Self::Ld | Self::St | Self::S | Self::R | Self::Not | Self::And | Self::Or | Self::Xor)
     }
 }
 

@@ -21,7 +21,7 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
         Ok(mut pairs) => pairs.next().map(|pair| consume::unit(pair, &mut diagnostics)).unwrap_or_default(),
         // The grammar reads any text, so this is a limit of the parser itself.
         Err(error) => {
-            diagnostics.push(expected::diagnostic(&error, 0));
+            diagnostics.push(expected::diagnostic(&error, &text, 0));
             Unit::default()
         }
     };

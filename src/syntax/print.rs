@@ -73,7 +73,7 @@ fn instruction(f: &mut Formatter<'_>, instruction: &Instruction, depth: usize) -
         writeln!(f, "{}:", label.text)?;
     }
     match &instruction.operation {
-        None => Ok(()),
+        None | Some(Operation::Broken) => Ok(()),
         Some(Operation::Simple { operator, operands }) => {
             let operands: Vec<String> = operands.iter().map(ToString::to_string).collect();
             let line = format!("{:5} {}", operator.to_string(), operands.join(", "));

@@ -91,11 +91,10 @@ pub fn witness(view: &dyn SystemView, graph: &Graph, dag: &Dag, evidence: &Evide
     let states: Vec<&[u64]> = evidence.states.iter().map(|&state| graph.state(state)).collect();
     let trace = view.replayed(&states, evidence.loop_start, &|position, replay| {
         for claim in evidence.claims.iter().filter(|claim| claim.position == position) {
-            if let Node::State { formula, negated } = dag.node(claim.node) {
-                if replay.holds(formula) != Some(!negated) {
-                    let sentence = dag.sentence(claim.node, view.system());
-                    return Err(Disagreement(format!("the search claims that {sentence}, the net does not show it")));
-                }
+            let Node::State { formula, negated } = dag.node(claim.node) else { continue };
+            if replay.holds(formula) != Some(!negated) {
+                let sentence = dag.sentence(claim.node, view.system());
+                return Err(Disagreement(format!("the search claims that {sentence}, the net does not show it")));
             }
         }
         Ok(())

@@ -55,10 +55,10 @@ pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<u
     }
     if endless {
         let mut last = None;
-        space.scans(&before, &mut |plant, machine, end| {
-            if end.is_err() && last.is_none() {
-                let inputs = inputs(&|input| machine.value(input));
-                last = Some(Scan { moves: moves(system, &before, plant), inputs, end: None });
+        space.scans(&before, &mut |run| {
+            if run.end.is_err() && last.is_none() {
+                let inputs = inputs(&|input| run.machine.value(input));
+                last = Some(Scan { moves: moves(system, &before, run.plant), inputs, end: None });
             }
         });
         scans.extend(last);

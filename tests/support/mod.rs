@@ -1,5 +1,6 @@
 //! What several tests share.
 #![allow(dead_code, reason = "each test uses a part")]
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
 pub mod naive_ctl;
 pub mod random_formula;

@@ -1,10 +1,10 @@
 //! What the grammar expected, in the words of the format.
 
 use pest::Parser;
-use pest::error::{Error, ErrorVariant, InputLocation};
+use pest::error::Error;
 
 use super::read::{Rule, TinaParser};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::Span;
 
 /// The words a line can begin with.
@@ -13,7 +13,7 @@ const WORDS: [&str; 3] = ["net", "pl", "tr"];
 /// Says why a line cannot be read. `start` is its offset in the whole text.
 pub fn explain(line: &str, start: usize) -> Diagnostic {
     let diagnostic = match TinaParser::parse(Rule::lone_line, line) {
-        Err(error) => diagnostic(&error, start),
+        Err(error) => diagnostic(&error, line, start),
         Ok(_) => Diagnostic::new(Code::NetSyntax, Span::new(start, start + line.len()), "this cannot stand here"),
     };
     let at = diagnostic.span().start - start;
@@ -43,34 +43,8 @@ pub fn explain(line: &str, start: usize) -> Diagnostic {
 }
 
 /// A pest error as a diagnostic.
-pub fn diagnostic(error: &Error<Rule>, start: usize) -> Diagnostic {
-    let at = match error.location {
-        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
-    };
-    let rest = error.line().get(column(error)..).unwrap_or("");
-    let found = rest.split_whitespace().next();
-    let span = Span::new(start + at, start + at + found.map_or(0, str::len));
-    let found = found.map_or_else(|| "the end of the line".to_owned(), |word| format!("`{word}`"));
-    let message = match &error.variant {
-        ErrorVariant::ParsingError { positives, .. } => {
-            let mut names: Vec<&str> = positives.iter().filter_map(|&rule| name(rule)).collect();
-            names.dedup();
-            match names.split_last() {
-                None => format!("{found} cannot stand here"),
-                Some((last, [])) => format!("expected {last}, found {found}"),
-                Some((last, others)) => format!("expected {} or {last}, found {found}", others.join(", ")),
-            }
-        }
-        ErrorVariant::CustomError { message } => message.clone(),
-    };
-    Diagnostic::new(Code::NetSyntax, span, message)
-}
-
-/// Byte offset of the error in its line.
-fn column(error: &Error<Rule>) -> usize {
-    let (pest::error::LineColLocation::Pos((_, column)) | pest::error::LineColLocation::Span((_, column), _)) =
-        error.line_col;
-    error.line().char_indices().nth(column - 1).map_or(error.line().len(), |(i, _)| i)
+pub fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
+    diagnostic::expected(error, (text, start), Code::NetSyntax, "the end of the line", name)
 }
 
 /// The names of the rules a user knows. Labels, intervals and weights are rare, so nobody is told that one could come.

@@ -35,7 +35,7 @@ pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
             }
         }
         // The grammar reads any text, so this is a limit of the parser itself.
-        Err(error) => diagnostics.push(expected::diagnostic(&error, 0)),
+        Err(error) => diagnostics.push(expected::diagnostic(&error, source.text(), 0)),
     }
     assembly.draft.parallel_arcs(&mut diagnostics);
     if diagnostics.is_empty() {

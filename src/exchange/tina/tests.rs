@@ -108,10 +108,10 @@ fn help_fits_the_slip() {
     let names = "put a name with other characters than letters, digits, `_` and `'` in braces";
     let braces = "a name in braces ends with `}`; a brace or backslash inside it is written `\\{`, `\\}`, `\\\\`";
     let table = [
-        ("pl S1=0 (1)", "expected the end of the line or a marking like `(1)`, found `=0`", names),
+        ("pl S1=0 (1)", "expected the end of the line or a marking like `(1)`, found `=`", names),
         ("tr t ä -> q", "expected the end of the line, `->` or a name, found `ä`", names),
-        ("pl {S1=0 (1)", "expected a name, found `{S1=0`", braces),
-        ("pl {S1{0} (1)", "expected a name, found `{S1{0}`", braces),
+        ("pl {S1=0 (1)", "expected a name, found `{`", braces),
+        ("pl {S1{0} (1)", "expected a name, found `{`", braces),
         (
             "pl p t -> u",
             "expected the end of the line or a marking like `(1)`, found `t`",

@@ -68,8 +68,8 @@ fn operators_bind_as_the_language_says() {
 fn what_is_no_formula_is_explained() {
     let cases = [
         ("", "expected a formula, found the end"),
-        ("a b", "expected an operator or the end, found `b`"),
-        ("A [a b]", "expected `U` or `W` or an operator, found `b]`"),
+        ("a b", "expected the end or an operator, found `b`"),
+        ("A [a b]", "expected `U` or `W` or an operator, found `b`"),
         ("a & ", "expected a formula, found the end"),
         ("a = 99999999999999999999", "this number is too large"),
         ("(a", "expected an operator, found the end"),

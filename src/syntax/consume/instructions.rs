@@ -80,25 +80,35 @@ impl ListBuilder {
     }
 
     fn open(&mut self, label: Option<Name>, pair: Pair<'_, Rule>, span: Span, diagnostics: &mut Vec<Diagnostic>) {
-        if self.open.len() == MAX_DEPTH {
-            if self.too_deep == 0 {
-                let message = format!("parentheses are nested more than {MAX_DEPTH} deep");
-                let help = "store an intermediate result in a variable instead";
-                diagnostics.push(Diagnostic::new(Code::ParenthesisTooDeep, span, message).help(help));
-            }
-            self.too_deep += 1;
-            return;
-        }
-        let mut word = Operator { verb: Verb::And, negated: false };
-        let mut first = None;
+        let mut open = Open {
+            label,
+            operator: Operator { verb: Verb::And, negated: false },
+            first: None,
+            span,
+            outer: Vec::new(),
+        };
         for piece in pair.into_inner() {
             match piece.as_rule() {
-                Rule::expr_operator => word = operator(piece.as_str()),
-                _ => first = operand(piece),
+                Rule::expr_operator => open.operator = operator(piece.as_str()),
+                _ => open.first = operand(piece),
             }
         }
-        let outer = std::mem::take(&mut self.current);
-        self.open.push(Open { label, operator: word, first, span, outer });
+        self.enter(open, diagnostics);
+    }
+
+    /// Goes into a parenthesis, unless it is nested too deeply.
+    fn enter(&mut self, mut open: Open, diagnostics: &mut Vec<Diagnostic>) {
+        if self.open.len() < MAX_DEPTH {
+            open.outer = std::mem::take(&mut self.current);
+            self.open.push(open);
+            return;
+        }
+        if self.too_deep == 0 {
+            let message = format!("parentheses are nested more than {MAX_DEPTH} deep");
+            let help = "store an intermediate result in a variable instead";
+            diagnostics.push(Diagnostic::new(Code::ParenthesisTooDeep, open.span, message).help(help));
+        }
+        self.too_deep += 1;
     }
 
     fn close(&mut self, close: Span, diagnostics: &mut Vec<Diagnostic>) {
@@ -116,28 +126,25 @@ impl ListBuilder {
         }
     }
 
-    /// Reports a line that cannot be read. Its parentheses count all the same, so that their partners are not reported.
+    /// Reports a line that cannot be read. Parentheses that it leaves open, or closes, count all the same, so that their
+    /// other ends are not reported.
     fn bad_line(&mut self, pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
-        diagnostics.push(explain(pair));
+        let explained = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
+        diagnostics.push(explained.help("an instruction is one operator with one operand, on a line of its own"));
+        self.push(None, Some(Operation::Broken), span(pair));
+        let mut opened = Vec::new();
         for (at, c) in pair.as_str().char_indices() {
-            let at = pair.as_span().start() + at;
+            let at = Span::new(pair.as_span().start() + at, pair.as_span().start() + at + 1);
             match c {
-                '(' if self.open.len() < MAX_DEPTH => self.open.push(Open {
-                    label: None,
-                    operator: Operator { verb: Verb::And, negated: false },
-                    // Something stands there, which keeps the rules for empty parentheses quiet.
-                    first: Some(Operand::Constant(Constant {
-                        text: "FALSE".to_owned(),
-                        boolean: Some(false),
-                        span: span(pair),
-                    })),
-                    span: Span::new(at, at + 1),
-                    outer: std::mem::take(&mut self.current),
-                }),
-                '(' => self.too_deep += 1,
-                ')' => self.close(Span::new(at, at + 1), diagnostics),
+                '(' => opened.push(at),
+                ')' if opened.pop().is_none() => self.close(at, diagnostics),
                 _ => {}
             }
+        }
+        for span in opened {
+            let operator = Operator { verb: Verb::And, negated: false };
+            self.enter(Open { label: None, operator, first: None, span, outer: Vec::new() }, diagnostics);
+            self.push(None, Some(Operation::Broken), span);
         }
     }
 
@@ -158,17 +165,6 @@ impl ListBuilder {
         }
         self.current
     }
-}
-
-/// Says what is wrong with a line, the commonest slips first.
-fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
-    let word = first_word(pair);
-    let diagnostic = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
-    let spelling = word.text.trim_end_matches(['(', ':']);
-    if is_operator(spelling) || !spelling.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        return diagnostic.help("an instruction is one operator with one operand, on a line of its own");
-    }
-    diagnostic.suggest(spelling, operator_words())
 }
 
 fn operation(pair: Pair<'_, Rule>) -> Operation {
@@ -214,16 +210,4 @@ fn operator(word: &str) -> Operator {
         Some(verb) => Operator { verb, negated: false },
         None => Operator { verb: find(word.trim_end_matches('N')).unwrap_or(Verb::Ld), negated: true },
     }
-}
-
-/// Whether a word is one of the language's operators.
-fn is_operator(word: &str) -> bool {
-    operator_words().any(|operator| operator.eq_ignore_ascii_case(word))
-}
-
-/// The words an instruction can begin with.
-pub fn operator_words() -> impl Iterator<Item = &'static str> {
-    const OTHERS: [&str; 14] =
-        ["LDN", "STN", "ANDN", "ORN", "XORN", "JMP", "JMPC", "JMPCN", "RET", "RETC", "RETCN", "CAL", "CALC", "CALCN"];
-    Verb::ALL.iter().map(|&(_, word)| word).chain(OTHERS)
 }

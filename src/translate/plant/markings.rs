@@ -66,6 +66,7 @@ pub fn explore(
 }
 
 /// An input without a value, or with two marked places that give it one.
+#[derive(Clone, Copy)]
 enum Ambiguity {
     None { input: VarId },
     Several { input: VarId, places: (usize, usize) },

@@ -1,0 +1,67 @@
+//! What a grammar expected, in the words of its language instead of rule names.
+
+use pest::RuleType;
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use super::{Code, Diagnostic};
+use crate::source::Span;
+
+/// A grammar's error on a piece of text as a diagnostic.
+///
+/// `start` is the piece's offset in the whole text, `end` what its end is called, and `name` what a rule is called, if it is
+/// worth telling.
+pub fn expected<R: RuleType>(
+    error: &Error<R>,
+    (text, start): (&str, usize),
+    code: Code,
+    end: &str,
+    name: impl Fn(R) -> Option<&'static str>,
+) -> Diagnostic {
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
+    };
+    let token = first_token(&text[at..]);
+    let span = Span::new(start + at, start + at + token.len());
+    let found = if token.is_empty() { end.to_owned() } else { format!("`{token}`") };
+    let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
+        return Diagnostic::new(code, span, error.variant.message());
+    };
+    let mut names: Vec<&str> = Vec::new();
+    for name in positives.iter().filter_map(|&rule| name(rule)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let message = match names.split_last() {
+        None => format!("{found} cannot stand here"),
+        Some((last, [])) => format!("expected {last}, found {found}"),
+        Some((last, others)) => format!("expected {} or {last}, found {found}", others.join(", ")),
+    };
+    Diagnostic::new(code, span, message)
+}
+
+/// The word or the few signs a text begins with; nothing if only white space is left.
+fn first_token(text: &str) -> &str {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.' || c == '#';
+    let end = match text.chars().next() {
+        Some(c) if c.is_whitespace() => text.find('\n').filter(|_| !text.trim().is_empty()).map(|_| 0),
+        Some(c) if is_word(c) => text.find(|c| !is_word(c)),
+        Some(c) if "()[]{};,\"'".contains(c) => Some(1),
+        Some(_) => text.find(|c: char| is_word(c) || c.is_whitespace() || "()[]{};,\"'".contains(c)),
+        None => None,
+    };
+    text[..end.unwrap_or(text.len())].trim()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_token;
+
+    #[test]
+    fn tokens_are_words_or_signs() {
+        let cases = [("MAX(T#1s", "MAX"), ("-> b", "->"), ("))", ")"), ("x.y#1 z", "x.y#1"), ("", ""), (" \n", "")];
+        for (text, token) in cases {
+            assert_eq!(first_token(text), token, "{text:?}");
+        }
+    }
+}
