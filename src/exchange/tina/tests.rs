@@ -124,7 +124,7 @@ fn help_fits_the_slip() {
         ),
         (
             "tr t p -> q?1",
-            "expected the end of the line or a name, found `?1`",
+            "expected the end of the line or a name, found `?`",
             "only arcs to a transition can test: write the test before `->`",
         ),
         (
