@@ -1,6 +1,6 @@
 //! Diagnostics as data: a code, a message, labelled spans, and help that says how to mend it.
 //!
-//! A label says what is there; help says what to do. Nothing here prints: [`render`] gives text, and whoever holds the
+//! A label says what is there; help says what to do. Nothing here prints: [`render()`] gives text, and whoever holds the
 //! terminal prints it.
 
 mod code;

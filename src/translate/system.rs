@@ -110,9 +110,9 @@ fn system_program(weaver: &mut Weaver, program: &FlatProgram, plant: &Plant, beg
         .collect();
     control.push(begin);
     let blocking: Vec<Option<PlaceId>> =
-        (plant.components.iter().enumerate()).map(|(i, component)| component.blocking_place(weaver, i)).collect();
+        (plant.components.iter().enumerate()).map(|(i, component)| component.add_blocking_place(weaver, i)).collect();
     let plant_places: Vec<Vec<PlaceId>> =
-        (plant.components.iter().enumerate()).map(|(i, component)| component.places(weaver, i)).collect();
+        (plant.components.iter().enumerate()).map(|(i, component)| component.add_places(weaver, i)).collect();
 
     let stop = blocking.iter().flatten().copied().chain([idle]).collect();
     let block = Arcs { consume: stop, produce: vec![control[0]], read: vec![] };
@@ -126,7 +126,7 @@ fn system_program(weaver: &mut Weaver, program: &FlatProgram, plant: &Plant, beg
     let unblock = Arcs { consume: vec![end], produce: go, read: vec![] };
     weaver.transition("unblock".to_owned(), unblock, TransitionRole::Unblock);
     for (i, component) in plant.components.iter().enumerate() {
-        component.transitions(weaver, i, &plant_places[i], blocking[i]);
+        component.add_transitions(weaver, i, &plant_places[i], blocking[i]);
     }
 }
 

@@ -108,18 +108,18 @@ impl Component {
     }
 
     /// Adds the place whose token lets the component move. A component without transitions needs none.
-    pub(in crate::translate) fn blocking_place(&self, weaver: &mut Weaver, index: usize) -> Option<PlaceId> {
+    pub(in crate::translate) fn add_blocking_place(&self, weaver: &mut Weaver, index: usize) -> Option<PlaceId> {
         let name = format!("block_{}", self.name);
         (!self.transitions.is_empty()).then(|| weaver.place(&name, true, PlaceRole::Blocking(index)))
     }
 
     /// Adds its places.
-    pub(in crate::translate) fn places(&self, weaver: &mut Weaver, index: usize) -> Vec<PlaceId> {
+    pub(in crate::translate) fn add_places(&self, weaver: &mut Weaver, index: usize) -> Vec<PlaceId> {
         self.places.iter().map(|place| weaver.place(&place.name, place.marked, PlaceRole::Plant(index))).collect()
     }
 
     /// Adds its transitions, with the blocking place as a side condition.
-    pub(in crate::translate) fn transitions(
+    pub(in crate::translate) fn add_transitions(
         &self,
         weaver: &mut Weaver,
         index: usize,
