@@ -12,12 +12,47 @@ use proptest::prelude::*;
 use support::naive_ctl::Kripke;
 use support::random_formula;
 
-/// A graph given by lists: state i is the one word i. Bit v of `marks[i]` is variable v.
+/// A graph given by lists. State s is of kernel `s / flavours`, and has the successors of its kernel; as a word it is kernel
+/// and flavour side by side. Bit v of `marks[s]` is variable v.
 #[derive(Debug)]
 struct Given {
+    flavours: usize,
+    /// By kernel.
     successors: Vec<Vec<usize>>,
     marks: Vec<u8>,
     initial: Vec<usize>,
+    /// Whether the search is told that steps depend on the kernel only.
+    shared: bool,
+}
+
+/// The bits of a word that are the kernel.
+const KERNEL: [u64; 1] = [0xff];
+
+impl Given {
+    fn pack(&self, state: usize) -> u64 {
+        (state / self.flavours) as u64 | ((state % self.flavours) as u64) << 8
+    }
+
+    fn unpack(&self, word: u64) -> usize {
+        (word & KERNEL[0]) as usize * self.flavours + (word >> 8) as usize
+    }
+
+    fn atom(&self, formula: &Bound, state: usize) -> bool {
+        formula.holds_in(&Marks(self.marks[state])).unwrap()
+    }
+
+    fn explored(&self, states: u64) -> Graph {
+        explore(self, Budget { states, ..Budget::default() }, &mut |_| None)
+    }
+
+    fn name(&self, graph: &Graph, id: u32) -> usize {
+        self.unpack(graph.state(id)[0])
+    }
+
+    fn kripke(&self, fair: Option<Vec<bool>>) -> Kripke {
+        let states = 0..self.successors.len() * self.flavours;
+        Kripke { successors: states.map(|s| self.successors[s / self.flavours].clone()).collect(), fair }
+    }
 }
 
 impl StateSpace for Given {
@@ -26,21 +61,16 @@ impl StateSpace for Given {
     }
 
     fn initial(&self, visit: &mut dyn FnMut(Step<'_>)) {
-        self.initial.iter().for_each(|&state| visit(Step::To(&[state as u64])));
+        self.initial.iter().for_each(|&state| visit(Step::To(&[self.pack(state)])));
     }
 
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>)) {
-        self.successors[state[0] as usize].iter().for_each(|&next| visit(Step::To(&[next as u64])));
-    }
-}
-
-impl Given {
-    fn atom(&self, formula: &Bound, state: usize) -> bool {
-        formula.holds_in(&Marks(self.marks[state])).unwrap()
+        let kernel = &self.successors[(state[0] & KERNEL[0]) as usize];
+        kernel.iter().for_each(|&next| visit(Step::To(&[self.pack(next)])));
     }
 
-    fn explored(&self, states: u64) -> Graph {
-        explore(self, Budget { states, ..Budget::default() }, &mut |_| None)
+    fn relevant(&self) -> Option<&[u64]> {
+        self.shared.then_some(&KERNEL)
     }
 }
 
@@ -59,11 +89,13 @@ impl petril::logic::Valuation for Marks {
 }
 
 fn given() -> impl Strategy<Value = Given> {
-    (1..12_usize).prop_flat_map(|n| {
-        let successors = proptest::collection::vec(proptest::collection::vec(0..n, 0..4), n);
+    (1..8_usize, 1..4_usize, any::<bool>()).prop_flat_map(|(kernels, flavours, shared)| {
+        let n = kernels * flavours;
+        let successors = proptest::collection::vec(proptest::collection::vec(0..n, 0..4), kernels);
         let marks = proptest::collection::vec(any::<u8>(), n);
         let initial = proptest::collection::vec(0..n, 1..3);
-        (successors, marks, initial).prop_map(|(successors, marks, initial)| Given { successors, marks, initial })
+        let parts = (successors, marks, initial);
+        parts.prop_map(move |(successors, marks, initial)| Given { flavours, successors, marks, initial, shared })
     })
 }
 
@@ -81,9 +113,8 @@ fn found(
 ) -> Vec<(usize, bool)> {
     let mut dag = Dag::default();
     let node = dag.add(formula, negated);
-    let name = |id: u32| graph.state(id)[0] as usize;
-    let labels = label(graph, &dag, &|f, id| given.atom(f, name(id)), fair);
-    graph.ids().map(|id| (name(id), labels.of(node).contains(id as usize))).collect()
+    let labels = label(graph, &dag, &|f, id| given.atom(f, given.name(graph, id)), fair);
+    graph.ids().map(|id| (given.name(graph, id), labels.of(node).contains(id as usize))).collect()
 }
 
 proptest! {
@@ -91,7 +122,7 @@ proptest! {
 
     #[test]
     fn on_whole_graphs(given in given(), formula in formula()) {
-        let kripke = Kripke { successors: given.successors.clone(), fair: None };
+        let kripke = given.kripke(None);
         let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
         let graph = given.explored(u64::MAX);
         for (state, holds) in found(&given, &graph, &formula, false, None) {
@@ -104,18 +135,18 @@ proptest! {
 
     #[test]
     fn under_fairness(given in given(), formula in formula()) {
-        // Every state gets a way to a fair state: the checker asks for that.
+        // Every state gets a way to a fair state, as the checker asks: one more kernel, to which and from which all lead.
         let mut given = given;
-        let n = given.successors.len();
+        let n = given.marks.len();
         given.successors.iter_mut().for_each(|next| next.push(n));
         given.successors.push((0..n).collect());
-        given.marks.push(5);
-        let is_fair = |s: usize| s == n || given.marks[s] & 128 != 0;
-        let kripke = Kripke { successors: given.successors.clone(), fair: Some((0..=n).map(is_fair).collect()) };
-        let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
+        given.marks.extend(std::iter::repeat_n(5, given.flavours));
+        let is_fair = |s: usize| s >= n || given.marks[s] & 128 != 0;
+        let truth = given.kripke(Some((0..given.marks.len()).map(is_fair).collect()));
+        let truth = truth.states(&formula, &|f, s| given.atom(f, s));
         let graph = given.explored(u64::MAX);
         let mut fair = FixedBitSet::with_capacity(graph.len());
-        fair.extend(graph.ids().filter(|&id| is_fair(graph.state(id)[0] as usize)).map(|id| id as usize));
+        fair.extend(graph.ids().filter(|&id| is_fair(given.name(&graph, id))).map(|id| id as usize));
         for negated in [false, true] {
             for (state, holds) in found(&given, &graph, &formula, negated, Some(&fair)) {
                 prop_assert_eq!(holds, truth[state] != negated, "state {}", state);
@@ -125,7 +156,7 @@ proptest! {
 
     #[test]
     fn on_parts_of_graphs(given in given(), formula in formula(), states in 1..6_u64) {
-        let kripke = Kripke { successors: given.successors.clone(), fair: None };
+        let kripke = given.kripke(None);
         let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
         let graph = given.explored(states);
         for negated in [false, true] {
@@ -140,7 +171,7 @@ proptest! {
         let graph = given.explored(u64::MAX);
         let mut dag = Dag::default();
         let node = dag.add(&formula, false);
-        let labels = label(&graph, &dag, &|f, id| given.atom(f, graph.state(id)[0] as usize), None);
+        let labels = label(&graph, &dag, &|f, id| given.atom(f, given.name(&graph, id)), None);
         let somewhere = graph.initial().iter().any(|&s| labels.of(node).contains(s as usize));
         let evidence = evidence(&graph, &dag, &labels, None, node, graph.initial());
         prop_assert_eq!(evidence.is_some(), somewhere);
@@ -159,7 +190,7 @@ proptest! {
             let mut successors: Vec<Vec<usize>> = (1..n).map(|s| vec![s]).collect();
             successors.push(evidence.loop_start.into_iter().collect());
             let run = Kripke { successors, fair: None };
-            let names: Vec<usize> = evidence.states.iter().map(|&s| graph.state(s)[0] as usize).collect();
+            let names: Vec<usize> = evidence.states.iter().map(|&s| given.name(&graph, s)).collect();
             let holds = run.states(&formula, &|f, s| given.atom(f, names[s]));
             prop_assert!(holds[0], "{:?} does not show {:?}", evidence, formula);
         }

@@ -25,8 +25,6 @@ pub struct Progress {
     pub states: u64,
     /// Of these, states whose steps are all known.
     pub expanded: u64,
-    /// Steps found.
-    pub steps: u64,
     /// Length of a shortest way to the states being expanded, in steps from an initial state.
     pub depth: usize,
     /// Bytes in use.

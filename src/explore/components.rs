@@ -1,8 +1,9 @@
-//! Strongly connected components of a part of a graph (Tarjan 1972, with an explicit stack).
+//! Strongly connected components of a part of a graph.
 
 use fixedbitset::FixedBitSet;
 
 use super::graph::Graph;
+use super::tarjan::{NONE, tarjan};
 
 /// The strongly connected components of a part of a graph.
 pub struct Components {
@@ -16,7 +17,7 @@ pub struct Components {
 
 impl Components {
     /// Stands for "outside the part".
-    pub const NONE: u32 = u32::MAX;
+    pub const NONE: u32 = NONE;
 
     /// Whether a state lies on a cycle within the part.
     #[must_use]
@@ -27,66 +28,28 @@ impl Components {
 }
 
 /// The components of the states in `part`, steps out of it left aside.
+///
+/// Rows are nodes too, between the states that have them and those they hold, so that a row is gone through once however
+/// many states share it. A component with a cycle then holds a row, and one without does not hold more than one node.
 #[must_use]
 pub fn components(graph: &Graph, part: &FixedBitSet) -> Components {
     let n = graph.len();
-    let mut result = Components { of: vec![Components::NONE; n], count: 0, cyclic: FixedBitSet::with_capacity(n) };
-    // 0 stands for "not seen".
-    let mut order = vec![0_u32; n];
-    let mut low = vec![0_u32; n];
-    let mut seen = 0;
-    let mut stack: Vec<u32> = Vec::new();
-    let mut path: Vec<(u32, usize)> = Vec::new();
-    for root in part.ones() {
-        if order[root] != 0 {
-            continue;
-        }
-        path.push((root as u32, 0));
-        while let Some(&mut (state, ref mut next)) = path.last_mut() {
-            let s = state as usize;
-            if *next == 0 {
-                seen += 1;
-                (order[s], low[s]) = (seen, seen);
-                stack.push(state);
-            }
-            let unseen = graph.successors(state)[*next..].iter().position(|&t| {
-                let t = t as usize;
-                if !part.contains(t) {
-                    return false;
-                }
-                if order[t] != 0 && result.of[t] == Components::NONE {
-                    low[s] = low[s].min(order[t]);
-                }
-                order[t] == 0
-            });
-            if let Some(offset) = unseen {
-                let target = graph.successors(state)[*next + offset];
-                *next += offset + 1;
-                path.push((target, 0));
-                continue;
-            }
-            path.pop();
-            if let Some(&(parent, _)) = path.last() {
-                low[parent as usize] = low[parent as usize].min(low[s]);
-            }
-            if low[s] == order[s] {
-                close(graph, state, &mut stack, &mut result);
-            }
+    let row_nodes: Vec<u32> = graph.ids().filter_map(|state| graph.row_of(state)).map(|row| n as u32 + row).collect();
+    let mut present = part.clone();
+    present.grow(n + graph.rows());
+    present.insert_range(n..);
+    let successors = |node: u32| match (node as usize).checked_sub(n) {
+        Some(row) => graph.row(row as u32),
+        None => row_nodes.get(node as usize).map_or(&[][..], std::slice::from_ref),
+    };
+    let (mut of, count) = tarjan(n + graph.rows(), &present, successors);
+    let mut cyclic = FixedBitSet::with_capacity(count);
+    for state in part.ones() {
+        let row = row_nodes.get(state).map(|&row| of[row as usize]);
+        if row == Some(of[state]) {
+            cyclic.insert(of[state] as usize);
         }
     }
-    result
-}
-
-/// Takes the component whose first state is `root` off the stack.
-fn close(graph: &Graph, root: u32, stack: &mut Vec<u32>, result: &mut Components) {
-    let component = result.count as u32;
-    let start = stack.iter().rposition(|&state| state == root).unwrap_or(0);
-    let members = stack.split_off(start);
-    for &state in &members {
-        result.of[state as usize] = component;
-    }
-    if members.len() > 1 || graph.successors(root).contains(&root) {
-        result.cyclic.insert(component as usize);
-    }
-    result.count += 1;
+    of.truncate(n);
+    Components { of, count, cyclic }
 }

@@ -1,4 +1,6 @@
 //! The reachability graph as a search leaves it: states, steps in compressed rows, and what is missing.
+//!
+//! States whose steps lead to the same states share one row: at the end of a scan, all states that differ in inputs only.
 
 use std::sync::OnceLock;
 
@@ -13,23 +15,48 @@ pub struct Graph {
     pub(super) store: Store,
     /// The initial states.
     pub(super) initial: Vec<u32>,
-    /// `targets[rows[s]..rows[s + 1]]` are the successors of state s.
-    pub(super) rows: Vec<u64>,
+    /// The row of each expanded state, which are the first ones.
+    pub(super) row_of: Vec<u32>,
+    /// `targets[starts[r]..starts[r + 1]]` is row r.
+    pub(super) starts: Vec<u64>,
     pub(super) targets: Vec<u32>,
     /// The state from which a state was first reached; its own number for an initial state.
     pub(super) parents: Vec<u32>,
     /// First state of each breadth-first level.
     pub(super) levels: Vec<u32>,
-    /// States with a step that leads nowhere; `None` stands for the initial step.
+    /// States with a step that leads nowhere, the first of each row; `None` stands for the initial step.
     pub(super) failures: Vec<(Option<u32>, Failure)>,
     pub(super) stop: Stop,
+    pub(super) members: OnceLock<Rows>,
     pub(super) backward: OnceLock<Rows>,
 }
 
-/// Rows of predecessors.
+/// Lists of numbers, one after another.
 pub(super) struct Rows {
-    rows: Vec<u64>,
-    sources: Vec<u32>,
+    starts: Vec<u64>,
+    numbers: Vec<u32>,
+}
+
+impl Rows {
+    /// The lists that hold, for each key below `keys`, the numbers paired with it, in the order of the pairs.
+    fn group(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut starts = vec![0_u64; keys + 1];
+        pairs.clone().for_each(|(key, _)| starts[key as usize + 1] += 1);
+        for key in 0..keys {
+            starts[key + 1] += starts[key];
+        }
+        let mut next = starts.clone();
+        let mut numbers = vec![0; starts[keys] as usize];
+        for (key, number) in pairs {
+            numbers[next[key as usize] as usize] = number;
+            next[key as usize] += 1;
+        }
+        Self { starts, numbers }
+    }
+
+    fn get(&self, key: u32) -> &[u32] {
+        &self.numbers[self.starts[key as usize] as usize..self.starts[key as usize + 1] as usize]
+    }
 }
 
 impl Graph {
@@ -45,10 +72,10 @@ impl Graph {
         self.len() == 0
     }
 
-    /// How many steps are known.
+    /// How many steps are known, counted for each state.
     #[must_use]
-    pub fn steps(&self) -> usize {
-        self.targets.len()
+    pub fn steps(&self) -> u64 {
+        self.row_of.iter().map(|&row| self.row(row).len() as u64).sum()
     }
 
     /// The words of a state.
@@ -64,43 +91,47 @@ impl Graph {
     }
 
     /// The numbers of all states.
-    pub fn ids(&self) -> impl DoubleEndedIterator<Item = u32> + use<> {
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = u32> + Clone + use<> {
         0..self.len() as u32
     }
 
     /// The known successors of a state, one for each step.
     #[must_use]
     pub fn successors(&self, id: u32) -> &[u32] {
-        match (self.rows.get(id as usize), self.rows.get(id as usize + 1)) {
-            (Some(&start), Some(&end)) => &self.targets[start as usize..end as usize],
-            _ => &[],
-        }
+        self.row_of.get(id as usize).map_or(&[], |&row| self.row(row))
     }
 
-    /// The known predecessors of a state, one for each step. The rows are built when first asked for.
+    /// How many rows there are.
     #[must_use]
-    pub fn predecessors(&self, id: u32) -> &[u32] {
-        let Rows { rows, sources } = self.backward.get_or_init(|| self.reverse());
-        &sources[rows[id as usize] as usize..rows[id as usize + 1] as usize]
+    pub fn rows(&self) -> usize {
+        self.starts.len() - 1
     }
 
-    fn reverse(&self) -> Rows {
-        let mut rows = vec![0_u64; self.len() + 1];
-        for &target in &self.targets {
-            rows[target as usize + 1] += 1;
-        }
-        for i in 1..rows.len() {
-            rows[i] += rows[i - 1];
-        }
-        let mut next = rows.clone();
-        let mut sources = vec![0; self.targets.len()];
-        for source in self.ids() {
-            for &target in self.successors(source) {
-                sources[next[target as usize] as usize] = source;
-                next[target as usize] += 1;
-            }
-        }
-        Rows { rows, sources }
+    /// The row of a state, if it was expanded.
+    #[must_use]
+    pub fn row_of(&self, id: u32) -> Option<u32> {
+        self.row_of.get(id as usize).copied()
+    }
+
+    /// A row: the successors of all states that have it.
+    #[must_use]
+    pub fn row(&self, row: u32) -> &[u32] {
+        &self.targets[self.starts[row as usize] as usize..self.starts[row as usize + 1] as usize]
+    }
+
+    /// The states that have a row, ascending. The lists are built when first asked for.
+    #[must_use]
+    pub fn members(&self, row: u32) -> &[u32] {
+        let pairs = || self.row_of.iter().zip(0..).map(|(&row, state)| (row, state));
+        self.members.get_or_init(|| Rows::group(self.rows(), pairs())).get(row)
+    }
+
+    /// The rows that hold a state, once for each step. The lists are built when first asked for.
+    #[must_use]
+    pub fn rows_to(&self, id: u32) -> &[u32] {
+        let rows = 0..self.rows() as u32;
+        let pairs = || rows.clone().flat_map(|row| self.row(row).iter().map(move |&target| (target, row)));
+        self.backward.get_or_init(|| Rows::group(self.len(), pairs())).get(id)
     }
 
     /// States not all of whose successors are known: not expanded, or with a step that fails.
@@ -108,14 +139,15 @@ impl Graph {
     pub fn open(&self) -> FixedBitSet {
         let mut open = FixedBitSet::with_capacity(self.len());
         open.insert_range(self.expanded()..self.len());
-        self.failures.iter().filter_map(|(state, _)| *state).for_each(|state| open.insert(state as usize));
+        let failing = self.failures.iter().filter_map(|(state, _)| self.row_of((*state)?));
+        failing.flat_map(|row| self.members(row)).for_each(|&state| open.insert(state as usize));
         open
     }
 
     /// How many states were expanded; they are the first ones.
     #[must_use]
     pub fn expanded(&self) -> usize {
-        self.rows.len() - 1
+        self.row_of.len()
     }
 
     /// Whether all initial states are known.
@@ -124,7 +156,7 @@ impl Graph {
         !self.initial.is_empty() && self.failures.iter().all(|(state, _)| state.is_some())
     }
 
-    /// Steps that lead nowhere, each with the state it leaves; `None` stands for the step to an initial state.
+    /// Steps that lead nowhere, each with a state it leaves, nearest first; `None` stands for the step to an initial state.
     #[must_use]
     pub fn failures(&self) -> &[(Option<u32>, Failure)] {
         &self.failures
@@ -161,10 +193,10 @@ impl Graph {
         path
     }
 
-    /// Bytes in use, predecessors not counted.
+    /// Bytes in use, without the lists that are built when asked for.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        let rows = self.rows.capacity() * 8 + self.targets.capacity() * 4 + self.parents.capacity() * 4;
-        self.store.bytes() + rows as u64
+        let numbers = self.row_of.capacity() + self.targets.capacity() + self.parents.capacity();
+        self.store.bytes() + (self.starts.capacity() * 8 + numbers * 4) as u64
     }
 }

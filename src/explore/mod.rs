@@ -12,6 +12,7 @@ mod scan_space;
 mod search;
 mod space;
 mod store;
+mod tarjan;
 
 pub use behaviour::{Behaviour, behaviour, unsafe_firing};
 pub use budget::{Budget, Progress, Stop};

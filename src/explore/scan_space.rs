@@ -19,6 +19,9 @@ pub struct ScanSpace<'s> {
     variables: Vec<(VarId, Field)>,
     free_inputs: Vec<VarId>,
     words: usize,
+    /// The bits that make a difference to later scans: the plant's markings, what the program carries over, and the outputs
+    /// the plant looks at.
+    relevant: Vec<u64>,
 }
 
 /// Some bits within one word of a state.
@@ -34,8 +37,9 @@ impl Field {
         (state[self.word] >> self.shift & self.mask) as usize
     }
 
+    /// Of `value`, the bits the field has.
     fn set(self, state: &mut [u64], value: usize) {
-        state[self.word] = state[self.word] & !(self.mask << self.shift) | (value as u64) << self.shift;
+        state[self.word] = state[self.word] & !(self.mask << self.shift) | (value as u64 & self.mask) << self.shift;
     }
 }
 
@@ -75,10 +79,17 @@ impl<'s> ScanSpace<'s> {
             Field { word, shift: shift.min(63), mask: (1 << bits) - 1 }
         };
         let width = |markings: usize| usize::BITS - (markings - 1).leading_zeros();
-        let components = system.plant.components.iter().map(|c| field(width(c.markings.len()))).collect();
-        let variables = system.program.declared().map(|variable| (variable, field(1))).collect();
+        let components: Vec<Field> = system.plant.components.iter().map(|c| field(width(c.markings.len()))).collect();
+        let variables: Vec<(VarId, Field)> = system.program.declared().map(|variable| (variable, field(1))).collect();
         let words = used.len();
-        Self { system, components, variables, free_inputs: system.free_inputs().collect(), words }
+        let mut carried = system.program.carried();
+        carried.extend(system.plant.tested().map(|output| output.0));
+        let mut relevant = vec![0; words];
+        components.iter().for_each(|field| field.set(&mut relevant, usize::MAX));
+        for (_, field) in variables.iter().filter(|(variable, _)| carried.contains(variable.0)) {
+            field.set(&mut relevant, 1);
+        }
+        Self { system, components, variables, free_inputs: system.free_inputs().collect(), words, relevant }
     }
 
     /// The system.
@@ -175,6 +186,10 @@ impl StateSpace for ScanSpace<'_> {
 
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>)) {
         self.scans(&self.unpack(state), &mut |run| visit(step(run.end)));
+    }
+
+    fn relevant(&self) -> Option<&[u64]> {
+        Some(&self.relevant)
     }
 
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {

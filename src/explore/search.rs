@@ -15,91 +15,141 @@ use super::store::Store;
 const BATCH: u64 = 1 << 18;
 
 /// Explores a space until everything is found, the budget is used up, or `watch` gives a reason to stop. `watch` is called
-/// after each batch.
+/// before each batch.
 pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Graph {
-    let mut graph = Graph {
-        store: Store::new(space.words()),
+    let mut search = Search { space, budget, graph: empty(space.words()), kernels: None };
+    search.kernels = space.relevant().map(|_| Store::new(space.words()));
+    search.graph.stop = search.run(watch);
+    search.graph
+}
+
+fn empty(words: usize) -> Graph {
+    Graph {
+        store: Store::new(words),
         initial: Vec::new(),
-        rows: vec![0],
+        row_of: Vec::new(),
+        starts: vec![0],
         targets: Vec::new(),
         parents: Vec::new(),
         levels: Vec::new(),
         failures: Vec::new(),
         stop: Stop::Complete,
+        members: OnceLock::new(),
         backward: OnceLock::new(),
-    };
-    if space.fan_out(None) > budget.states {
-        graph.stop = Stop::States(budget.states);
-        return graph;
     }
-    let mut roots = Expansion::default();
-    space.initial(&mut |step| roots.add(step));
-    graph.failures.extend(roots.failures.iter().map(|&failure| (None, failure)));
-    for state in roots.states(space.words()) {
-        let (id, new) = graph.store.insert(state);
-        if new {
-            graph.parents.push(id);
-            graph.initial.push(id);
+}
+
+struct Search<'a> {
+    space: &'a dyn StateSpace,
+    budget: Budget,
+    graph: Graph,
+    /// The relevant parts of the states expanded so far, if states can share rows: a kernel's number is that of its row.
+    kernels: Option<Store>,
+}
+
+impl Search<'_> {
+    fn run(&mut self, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Stop {
+        if self.space.fan_out(None) > self.budget.states {
+            return Stop::States(self.budget.states);
         }
-    }
-    let mut level = 0..graph.len() as u32;
-    while !level.is_empty() {
-        graph.levels.push(level.start);
-        let mut rest = level.clone();
-        while !rest.is_empty() {
-            let batch = batch(&graph, space, rest.clone(), budget);
-            let Some(batch) = batch.filter(|_| within(&graph, budget)) else {
-                graph.stop = exhausted(&graph, budget);
-                return graph;
-            };
-            if let Some(reason) = watch(&progress(&graph)) {
-                graph.stop = Stop::Watcher(reason);
-                return graph;
+        self.enter_initial();
+        let mut level = 0..self.graph.len() as u32;
+        while !level.is_empty() {
+            self.graph.levels.push(level.start);
+            while self.graph.expanded() < level.end as usize {
+                if let Some(stop) = self.exhausted() {
+                    return stop;
+                }
+                if let Some(reason) = watch(&self.progress()) {
+                    return Stop::Watcher(reason);
+                }
+                let rest = self.graph.expanded() as u32..level.end;
+                let Some(batch) = self.batch(rest) else { return Stop::States(self.budget.states) };
+                let (space, store) = (self.space, &self.graph.store);
+                let expansions: Vec<Expansion> =
+                    batch.par_iter().map(|&id| Expansion::of(|add| space.successors(store.get(id), add))).collect();
+                for (id, expansion) in batch.iter().zip(&expansions) {
+                    self.enter(*id, expansion);
+                }
             }
-            rest.start = batch.end;
-            let store = &graph.store;
-            let expanded: Vec<Expansion> =
-                batch.clone().into_par_iter().map(|id| expand(space, store.get(id))).collect();
-            for (id, expansion) in batch.zip(&expanded) {
-                enter(&mut graph, id, expansion, space.words());
+            level = level.end..self.graph.len() as u32;
+        }
+        Stop::Complete
+    }
+
+    fn enter_initial(&mut self) {
+        let space = self.space;
+        let roots = Expansion::of(|add| space.initial(add));
+        self.graph.failures.extend(roots.failures.iter().map(|&failure| (None, failure)));
+        for state in roots.words.chunks_exact(space.words()) {
+            let (id, new) = self.graph.store.insert(state);
+            if new {
+                self.graph.parents.push(id);
+                self.graph.initial.push(id);
             }
         }
-        level = level.end..graph.len() as u32;
     }
-    graph
-}
 
-/// The next states to expand: as many of `rest` as have [`BATCH`] successors together, but one at least. `None` if that one
-/// has more than the budget allows.
-fn batch(graph: &Graph, space: &dyn StateSpace, rest: Range<u32>, budget: Budget) -> Option<Range<u32>> {
-    let mut total = 0;
-    let mut end = rest.start;
-    for id in rest.clone() {
-        let fan_out = space.fan_out(Some(graph.state(id)));
-        total = fan_out.saturating_add(total);
-        if fan_out > budget.states || (end > rest.start && total > BATCH) {
-            break;
+    /// Gives the next states of `rest` their rows, and returns those of them whose rows are new and have to be filled: as
+    /// many as have [`BATCH`] successors together, but one at least. `None` if that one has more than the budget allows.
+    fn batch(&mut self, rest: Range<u32>) -> Option<Vec<u32>> {
+        let mut total = 0;
+        let mut batch = Vec::new();
+        let mut kernel = Vec::new();
+        for id in rest {
+            let state = self.graph.store.get(id);
+            let mask = self.space.relevant();
+            kernel.clear();
+            kernel.extend(state.iter().zip(mask.into_iter().flatten()).map(|(word, mask)| word & mask));
+            let mut row = self.kernels.as_ref().and_then(|kernels| kernels.find(&kernel));
+            if row.is_none() {
+                let fan_out = self.space.fan_out(Some(state));
+                total = fan_out.saturating_add(total);
+                if fan_out > self.budget.states || (!batch.is_empty() && total > BATCH) {
+                    return (!batch.is_empty()).then_some(batch);
+                }
+                row = self.kernels.as_mut().map(|kernels| kernels.insert(&kernel).0);
+                batch.push(id);
+            }
+            self.graph.row_of.push(row.unwrap_or(id));
         }
-        end += 1;
+        Some(batch)
     }
-    (end > rest.start).then_some(rest.start..end)
-}
 
-fn within(graph: &Graph, budget: Budget) -> bool {
-    (graph.len() as u64) <= budget.states.min(u64::from(u32::MAX) >> 1) && graph.bytes() <= budget.bytes
-}
+    fn enter(&mut self, id: u32, expansion: &Expansion) {
+        let graph = &mut self.graph;
+        for state in expansion.words.chunks_exact(self.space.words()) {
+            let (target, new) = graph.store.insert(state);
+            if new {
+                graph.parents.push(id);
+            }
+            graph.targets.push(target);
+        }
+        graph.starts.push(graph.targets.len() as u64);
+        graph.failures.extend(expansion.failures.first().map(|&failure| (Some(id), failure)));
+    }
 
-fn exhausted(graph: &Graph, budget: Budget) -> Stop {
-    if graph.bytes() > budget.bytes { Stop::Bytes(budget.bytes) } else { Stop::States(budget.states) }
-}
+    fn bytes(&self) -> u64 {
+        self.graph.bytes() + self.kernels.as_ref().map_or(0, Store::bytes)
+    }
 
-fn progress(graph: &Graph) -> Progress {
-    Progress {
-        states: graph.len() as u64,
-        expanded: graph.expanded() as u64,
-        steps: graph.steps() as u64,
-        depth: graph.depth(),
-        bytes: graph.bytes(),
+    fn exhausted(&self) -> Option<Stop> {
+        // Numbers of states and rows have 32 bits; half of that leaves room for a batch.
+        let states = self.budget.states.min(u64::from(u32::MAX) >> 1);
+        if self.bytes() > self.budget.bytes {
+            Some(Stop::Bytes(self.budget.bytes))
+        } else {
+            (self.graph.len() as u64 > states).then_some(Stop::States(states))
+        }
+    }
+
+    fn progress(&self) -> Progress {
+        Progress {
+            states: self.graph.len() as u64,
+            expanded: self.graph.expanded() as u64,
+            depth: self.graph.depth(),
+            bytes: self.bytes(),
+        }
     }
 }
 
@@ -111,32 +161,12 @@ struct Expansion {
 }
 
 impl Expansion {
-    fn add(&mut self, step: Step<'_>) {
-        match step {
-            Step::To(state) => self.words.extend_from_slice(state),
-            Step::Fails(failure) => self.failures.push(failure),
-        }
+    fn of(visit: impl FnOnce(&mut dyn FnMut(Step<'_>))) -> Self {
+        let mut expansion = Self::default();
+        visit(&mut |step| match step {
+            Step::To(state) => expansion.words.extend_from_slice(state),
+            Step::Fails(failure) => expansion.failures.push(failure),
+        });
+        expansion
     }
-
-    fn states(&self, words: usize) -> impl Iterator<Item = &[u64]> {
-        self.words.chunks_exact(words)
-    }
-}
-
-fn expand(space: &dyn StateSpace, state: &[u64]) -> Expansion {
-    let mut expansion = Expansion::default();
-    space.successors(state, &mut |step| expansion.add(step));
-    expansion
-}
-
-fn enter(graph: &mut Graph, id: u32, expansion: &Expansion, words: usize) {
-    for state in expansion.states(words) {
-        let (target, new) = graph.store.insert(state);
-        if new {
-            graph.parents.push(id);
-        }
-        graph.targets.push(target);
-    }
-    graph.rows.push(graph.targets.len() as u64);
-    graph.failures.extend(expansion.failures.first().map(|&failure| (Some(id), failure)));
 }

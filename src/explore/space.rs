@@ -17,6 +17,11 @@ pub trait StateSpace: Sync {
     /// Calls `visit` for each step out of a state.
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>));
 
+    /// The bits of a state that its steps depend on: states that agree in these have the same steps. `None` if all do.
+    fn relevant(&self) -> Option<&[u64]> {
+        None
+    }
+
     /// About how many steps leave a state. A space whose steps are counted in millions says so here, so that the search
     /// can give up before it begins; the initial states are meant by `None`.
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {

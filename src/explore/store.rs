@@ -29,6 +29,11 @@ impl Store {
         &self.arena[start..start + self.words]
     }
 
+    /// The number of a state, if it is there.
+    pub fn find(&self, state: &[u64]) -> Option<u32> {
+        self.index.find(hash(state), |&id| self.get(id) == state).copied()
+    }
+
     /// The number of a state, new or not, and whether it is new.
     pub fn insert(&mut self, state: &[u64]) -> (u32, bool) {
         let (words, arena) = (self.words, &self.arena);

@@ -3,6 +3,7 @@
 //! One strictly sequential list of instructions on single bits: parentheses are buffered in fresh variables, labels are
 //! line numbers, a return is a jump to the end. Both the interpreter and the net are made from it.
 
+mod carried;
 mod lower;
 mod print;
 

@@ -79,8 +79,10 @@ impl Explainer<'_> {
             Node::Or(f, g) => pairs(&self.cost(f), &self.cost(g), u32::min),
             Node::Next(Quantifier::Some, f) => {
                 let costs = self.cost(f);
-                let best = |s| self.graph.successors(s).iter().map(|&t| costs[t as usize]).min().unwrap_or(NEVER);
-                self.graph.ids().map(|s| best(s).saturating_add(1)).collect()
+                let best = |row| self.graph.row(row).iter().map(|&t| costs[t as usize]).min().unwrap_or(NEVER);
+                let best: Vec<u32> = (0..self.graph.rows() as u32).map(best).collect();
+                let cost = |s| self.graph.row_of(s).map_or(NEVER, |row| best[row as usize].saturating_add(1));
+                self.graph.ids().map(cost).collect()
             }
             Node::Until(Quantifier::Some, f, g) => self.distances(f, g),
             Node::WeakUntil(Quantifier::Some, f, g) => {
@@ -120,16 +122,23 @@ impl Explainer<'_> {
         for state in self.graph.ids().filter(|&s| distances[s as usize] != NEVER) {
             put(&mut buckets, distances[state as usize], state);
         }
+        let mut reached = FixedBitSet::with_capacity(self.graph.rows());
         let mut distance = 0;
         while (distance as usize) < buckets.len() {
             for state in std::mem::take(&mut buckets[distance as usize]) {
                 if distances[state as usize] != distance {
                     continue;
                 }
-                for &before in self.graph.predecessors(state) {
-                    if hold.contains(before as usize) && distances[before as usize] > distance + 1 {
-                        distances[before as usize] = distance + 1;
-                        put(&mut buckets, distance + 1, before);
+                for &row in self.graph.rows_to(state) {
+                    // States come nearest first, so a row is reached first from its nearest.
+                    if reached.put(row as usize) {
+                        continue;
+                    }
+                    for &before in self.graph.members(row) {
+                        if hold.contains(before as usize) && distances[before as usize] > distance + 1 {
+                            distances[before as usize] = distance + 1;
+                            put(&mut buckets, distance + 1, before);
+                        }
                     }
                 }
             }
@@ -242,10 +251,14 @@ fn shortest(
         return Some(Vec::new());
     }
     let mut parents: BTreeMap<u32, u32> = BTreeMap::new();
+    let mut gone = FixedBitSet::with_capacity(graph.rows());
     let mut queue = vec![from];
     let mut next = 0;
     while let Some(&state) = queue.get(next) {
         next += 1;
+        if graph.row_of(state).is_none_or(|row| gone.put(row as usize)) {
+            continue;
+        }
         for &target in graph.successors(state) {
             if !within.contains(target as usize) || parents.contains_key(&target) {
                 continue;

@@ -1,5 +1,5 @@
 //! Which states satisfy which node, by the classical fixpoints on sets of states (Clarke, Emerson and Sistla 1986), each in
-//! time linear in the graph.
+//! time linear in the graph, where a row that many states share is gone through once.
 //!
 //! A path ends only in a state without steps; there X g is true under A and false under E, and W needs nothing more. Where a
 //! graph is not complete, a state is in a set only if the node holds whatever the missing steps are. So a formula holds if
@@ -83,14 +83,7 @@ struct Labeller<'a> {
 
 impl Labeller<'_> {
     fn states_where(&self, test: impl Fn(u32) -> bool + Sync) -> FixedBitSet {
-        const BITS: usize = usize::BITS as usize;
-        let n = self.graph.len();
-        let block = |first: usize| {
-            let states = first..n.min(first + BITS);
-            states.filter(|&state| test(state as u32)).fold(0, |block, state| block | 1_usize << (state - first))
-        };
-        let blocks: Vec<usize> = (0..n.div_ceil(BITS)).into_par_iter().map(|i| block(i * BITS)).collect();
-        FixedBitSet::with_capacity_and_blocks(n, blocks)
+        set_where(self.graph.len(), test)
     }
 
     fn complement(&self, set: &FixedBitSet) -> FixedBitSet {
@@ -99,24 +92,33 @@ impl Labeller<'_> {
         complement
     }
 
+    /// The rows that satisfy a test.
+    fn rows_where(&self, test: impl Fn(&[u32]) -> bool + Sync) -> FixedBitSet {
+        set_where(self.graph.rows(), |row| test(self.graph.row(row)))
+    }
+
     fn exists_next(&self, f: &FixedBitSet) -> FixedBitSet {
-        self.states_where(|state| self.graph.successors(state).iter().any(|&next| f.contains(next as usize)))
+        let rows = self.rows_where(|row| row.iter().any(|&next| f.contains(next as usize)));
+        self.states_where(|state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize)))
     }
 
     fn all_next(&self, f: &FixedBitSet) -> FixedBitSet {
-        let known = |state: u32| !self.open.contains(state as usize);
-        let all = |state| self.graph.successors(state).iter().all(|&next| f.contains(next as usize));
-        self.states_where(|state| known(state) && all(state))
+        let rows = self.rows_where(|row| row.iter().all(|&next| f.contains(next as usize)));
+        let all = |state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize));
+        self.states_where(|state| !self.open.contains(state as usize) && all(state))
     }
 
     fn exists_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
         let mut set = g.clone();
+        let mut reaching = FixedBitSet::with_capacity(self.graph.rows());
         let mut work: Vec<u32> = g.ones().map(|state| state as u32).collect();
         while let Some(state) = work.pop() {
-            for &before in self.graph.predecessors(state) {
-                if f.contains(before as usize) && !set.put(before as usize) {
-                    work.push(before);
+            for &row in self.graph.rows_to(state) {
+                if reaching.put(row as usize) {
+                    continue;
                 }
+                let members = self.graph.members(row).iter().copied();
+                work.extend(members.filter(|&before| f.contains(before as usize) && !set.put(before as usize)));
             }
         }
         set
@@ -139,14 +141,20 @@ impl Labeller<'_> {
             return self.complement(&self.exists_weak_until(&not_g, &neither));
         }
         let mut set = g.clone();
-        let mut missing: Vec<u32> = self.graph.ids().map(|state| self.graph.successors(state).len() as u32).collect();
+        let rows = 0..self.graph.rows() as u32;
+        let mut missing: Vec<usize> = rows.map(|row| self.graph.row(row).len()).collect();
         let mut work: Vec<u32> = g.ones().map(|state| state as u32).collect();
         while let Some(state) = work.pop() {
-            for &before in self.graph.predecessors(state) {
-                let b = before as usize;
-                missing[b] -= 1;
-                if missing[b] == 0 && f.contains(b) && !self.open.contains(b) && !set.put(b) {
-                    work.push(before);
+            for &row in self.graph.rows_to(state) {
+                missing[row as usize] -= 1;
+                if missing[row as usize] > 0 {
+                    continue;
+                }
+                for &before in self.graph.members(row) {
+                    let b = before as usize;
+                    if f.contains(b) && !self.open.contains(b) && !set.put(b) {
+                        work.push(before);
+                    }
                 }
             }
         }
@@ -159,4 +167,15 @@ impl Labeller<'_> {
         goal.union_with(g);
         self.exists_until(f, &goal)
     }
+}
+
+/// The numbers below `n` that satisfy a test, computed on all processors.
+fn set_where(n: usize, test: impl Fn(u32) -> bool + Sync) -> FixedBitSet {
+    const BITS: usize = usize::BITS as usize;
+    let block = |first: usize| {
+        let numbers = first..n.min(first + BITS);
+        numbers.filter(|&number| test(number as u32)).fold(0, |block, number| block | 1_usize << (number - first))
+    };
+    let blocks: Vec<usize> = (0..n.div_ceil(BITS)).into_par_iter().map(|i| block(i * BITS)).collect();
+    FixedBitSet::with_capacity_and_blocks(n, blocks)
 }

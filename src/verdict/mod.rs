@@ -138,8 +138,8 @@ pub struct Exploration {
     pub view: View,
     /// States found.
     pub states: usize,
-    /// Steps found.
-    pub steps: usize,
+    /// Steps found, counted for each state.
+    pub steps: u64,
     /// The largest of the shortest distances: in the scan view in scans from power-on, in the transition view in firings
     /// from the initial marking.
     pub depth: usize,

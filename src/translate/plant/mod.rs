@@ -44,6 +44,12 @@ impl Plant {
         self.components.iter().position(|component| component.drives(input))
     }
 
+    /// The outputs the plant looks at.
+    pub fn tested(&self) -> impl Iterator<Item = VarId> {
+        let transitions = self.components.iter().flat_map(|component| &component.transitions);
+        transitions.flat_map(|transition| &transition.tests).map(|&(output, _)| output)
+    }
+
     /// Names of the nets, in the order they were added.
     #[must_use]
     pub fn names(&self) -> &[String] {

@@ -1,0 +1,63 @@
+//! Tarjan's algorithm for strongly connected components (1972), with an explicit stack: graphs of states are deep.
+
+use fixedbitset::FixedBitSet;
+
+/// Stands for "in no component".
+pub const NONE: u32 = u32::MAX;
+
+/// The component of each of `n` nodes ([`NONE`] for a node that is not in `part`) and how many there are. A component's
+/// number exceeds those of the components it leads to.
+pub fn tarjan<'g>(n: usize, part: &FixedBitSet, successors: impl Fn(u32) -> &'g [u32]) -> (Vec<u32>, usize) {
+    let mut component = vec![NONE; n];
+    let mut count = 0;
+    // The order in which nodes are first seen, 0 for "not seen", and the smallest order known to be in the same component.
+    let (mut order, mut low) = (vec![0_u32; n], vec![0_u32; n]);
+    let mut seen = 0;
+    let mut stack: Vec<u32> = Vec::new();
+    let mut path: Vec<(u32, usize)> = Vec::new();
+    for root in part.ones() {
+        if order[root] != 0 {
+            continue;
+        }
+        path.push((root as u32, 0));
+        while let Some(&mut (node, ref mut next)) = path.last_mut() {
+            let v = node as usize;
+            if *next == 0 {
+                seen += 1;
+                (order[v], low[v]) = (seen, seen);
+                stack.push(node);
+            }
+            let unseen = successors(node)[*next..].iter().position(|&target| {
+                let t = target as usize;
+                if !part.contains(t) {
+                    return false;
+                }
+                if order[t] != 0 && component[t] == NONE {
+                    low[v] = low[v].min(order[t]);
+                }
+                order[t] == 0
+            });
+            if let Some(offset) = unseen {
+                let target = successors(node)[*next + offset];
+                *next += offset + 1;
+                path.push((target, 0));
+                continue;
+            }
+            path.pop();
+            if let Some(&(parent, _)) = path.last() {
+                low[parent as usize] = low[parent as usize].min(low[v]);
+            }
+            if low[v] == order[v] {
+                // The node was the first seen of its component; the others lie above it.
+                while let Some(member) = stack.pop() {
+                    component[member as usize] = count;
+                    if member == node {
+                        break;
+                    }
+                }
+                count += 1;
+            }
+        }
+    }
+    (component, count as usize)
+}
