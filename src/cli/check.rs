@@ -26,12 +26,12 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     let options = Options { view, fair: arguments.fair, budget: arguments.limits.budget() };
     let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
     watcher.finish();
-    let text = if arguments.json {
-        json::report(&system, &result, source.name())
+    if arguments.json {
+        console.print_json(json::report(&system, &result, source.name()))?;
     } else {
-        report::Text { system: &system, source: &source, arguments, console }.report(&result)
-    };
-    console.print(&text)?;
+        let text = report::Text { system: &system, source: &source, arguments, console };
+        console.print(&text.report(&result))?;
+    }
     Ok(match result.verdict() {
         Verdict::Holds => ExitCode::SUCCESS,
         Verdict::Violated => ExitCode::from(1),

@@ -1,9 +1,12 @@
 //! The terminal: colour, width, and where messages go.
 
+use std::cell::RefCell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 
 use petril::diagnostic::{Diagnostic, Style, render};
+use petril::exchange::json;
 use petril::source::Source;
+use serde_json::Value;
 
 use super::args::When;
 use super::{Failure, Outcome, SUCCESS};
@@ -16,6 +19,8 @@ pub struct Console {
     errors_in_colour: bool,
     output_in_colour: bool,
     width: usize,
+    /// The diagnostics printed so far, for those who want JSON.
+    printed: RefCell<Vec<Value>>,
 }
 
 impl Console {
@@ -30,12 +35,14 @@ impl Console {
             errors_in_colour: wanted(io::stderr().is_terminal()),
             output_in_colour: wanted(io::stdout().is_terminal()),
             width,
+            printed: RefCell::default(),
         }
     }
 
     /// Prints the diagnostics of a file, most of them.
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], source: &Source) {
         let style = Style { colour: self.errors_in_colour, width: self.width };
+        self.printed.borrow_mut().extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
         for diagnostic in diagnostics.iter().take(MAX_DIAGNOSTICS) {
             self.message(&render(diagnostic, source, style));
         }
@@ -63,6 +70,12 @@ impl Console {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),
             Err(error) => Err(Failure::Message(format!("cannot print: {error}"))),
         }
+    }
+
+    /// Prints a result as a JSON document, with the diagnostics printed so far.
+    pub fn print_json(&self, mut document: Value) -> Outcome {
+        document["diagnostics"] = Value::Array(self.printed.take());
+        self.print(&format!("{document:#}\n"))
     }
 
     /// A word of a result in the colour of its meaning.

@@ -18,6 +18,7 @@ mod translate;
 use std::process::ExitCode;
 
 use clap::Parser;
+use serde_json::json;
 
 use args::{Args, NetVerb, Verb};
 use console::Console;
@@ -40,6 +41,11 @@ pub const SUCCESS: ExitCode = ExitCode::SUCCESS;
 pub fn run() -> ExitCode {
     let args = Args::parse();
     let console = Console::new(args.colour);
+    let wants_json = match &args.verb {
+        Verb::Check(arguments) => arguments.json,
+        Verb::Net(NetVerb::Info(arguments)) => arguments.json,
+        _ => false,
+    };
     let outcome = match args.verb {
         Verb::Check(arguments) => check::run(&arguments, &console),
         Verb::Translate(arguments) => translate::run(&arguments, &console),
@@ -50,9 +56,15 @@ pub fn run() -> ExitCode {
     };
     match outcome {
         Ok(code) => code,
-        Err(Failure::Reported) => ExitCode::from(2),
-        Err(Failure::Message(message)) => {
-            console.error(&message);
+        Err(failure) => {
+            let mut document = json!({ "verdict": "error", "error": null });
+            if let Failure::Message(message) = failure {
+                console.error(&message);
+                document["error"] = message.into();
+            }
+            if wants_json {
+                let _ = console.print_json(document);
+            }
             ExitCode::from(2)
         }
     }

@@ -75,7 +75,11 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         let text = format!("markings     at least {}: {}\nsafe         as far as seen\n", graph.len(), graph.stop());
         (text, ExitCode::from(3))
     };
-    console.print(&if arguments.json { format!("{document:#}\n") } else { size + &text })?;
+    if arguments.json {
+        console.print_json(document)?
+    } else {
+        console.print(&(size + &text))?
+    };
     Ok(code)
 }
 

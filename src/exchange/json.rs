@@ -2,21 +2,38 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::diagnostic::Diagnostic;
 use crate::logic::View;
 use crate::semantics::{Role, VarId};
+use crate::source::Source;
 use crate::translate::{Part, System, TransitionRole};
 use crate::verdict::{Answer, Outcome, Report, Trace, Witness};
 use crate::witness::{FiringTrace, Scan, ScanTrace};
 
-/// The report of a check, as one document that ends with a newline. `file` is the name of the program's file.
+/// A diagnostic: code, severity, message, file, line and column from 1, help.
 #[must_use]
-pub fn report(system: &System, report: &Report, file: &str) -> String {
+pub fn diagnostic(diagnostic: &Diagnostic, source: &Source) -> Value {
+    let (line, column) = source.line_column(diagnostic.span().start);
+    json!({
+        "code": diagnostic.code.id(),
+        "severity": if diagnostic.is_error() { "error" } else { "warning" },
+        "message": diagnostic.message,
+        "file": source.name(),
+        "line": line,
+        "column": column,
+        "help": diagnostic.help,
+    })
+}
+
+/// The report of a check. `file` is the name of the program's file.
+#[must_use]
+pub fn report(system: &System, report: &Report, file: &str) -> Value {
     let size = |(places, transitions)| json!({ "places": places, "transitions": transitions });
     let parts: Map<String, Value> =
         Part::ALL.map(|part| (part.name().to_owned(), size(system.size(part)))).into_iter().collect();
     let exploration = &report.exploration;
     let answers = |answers: &[Answer]| answers.iter().map(|a| answer(system, a, exploration.view)).collect::<Vec<_>>();
-    let document = json!({
+    json!({
         "program": { "name": system.program.name, "file": file, "lines": system.program.end() },
         "net": {
             "places": system.net.places().len(),
@@ -36,8 +53,7 @@ pub fn report(system: &System, report: &Report, file: &str) -> String {
         "requirements": answers(&report.answers),
         "checks": answers(&report.checks),
         "verdict": report.verdict().word(),
-    });
-    format!("{document:#}\n")
+    })
 }
 
 fn view(view: View) -> &'static str {
