@@ -49,15 +49,9 @@ impl Lowering {
     }
 
     fn statement(&mut self, statement: &Statement, depth: usize) {
-        let instruction = match &statement.action {
-            &Action::Load { negated, operand } => Instruction::Load { negated, operand },
-            &Action::Store { negated, variable } => Instruction::Store { negated, variable },
-            &Action::Set(variable) => Instruction::Set(variable),
-            &Action::Reset(variable) => Instruction::Reset(variable),
-            Action::Complement => Instruction::Complement,
-            &Action::Combine { function, negated, operand } => Instruction::Combine { function, negated, operand },
+        match &statement.action {
             // Jumps stand on the outermost level only; their targets become lines at the end.
-            &Action::Jump { condition, target } => Instruction::Jump { condition, target },
+            &Action::Plain(instruction) => self.emit(instruction, statement.span),
             Action::Defer { function, negated, first, body, close } => {
                 let left = match self.buffers.left.get(depth) {
                     Some(&left) => left,
@@ -79,10 +73,9 @@ impl Lowering {
                 let operand = Operand::Variable(right);
                 self.emit(Instruction::Store { negated: false, variable: right }, *close);
                 self.emit(Instruction::Load { negated: false, operand: Operand::Variable(left) }, *close);
-                return self.emit(Instruction::Combine { function: *function, negated: *negated, operand }, *close);
+                self.emit(Instruction::Combine { function: *function, negated: *negated, operand }, *close);
             }
-        };
-        self.emit(instruction, statement.span);
+        }
     }
 
     /// A new variable named by the first of A, B, …, Z, A1, B1, … that is not taken.

@@ -9,7 +9,9 @@ mod print;
 
 pub use lower::flatten;
 
-use crate::semantics::{Condition, Function, Operand, Role, VarId, Variable};
+use crate::semantics::{Role, VarId, Variable};
+
+pub use crate::semantics::Instruction;
 use crate::source::Span;
 
 /// A flat program.
@@ -28,51 +30,10 @@ pub struct FlatProgram {
 /// One line of flat code.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What it does.
+    /// What it does; a jump's target is a line.
     pub instruction: Instruction,
     /// The piece of source it comes from.
     pub span: Span,
-}
-
-/// An instruction of flat code. CR is the current result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Instruction {
-    /// CR := operand, complemented if `negated`.
-    Load {
-        /// Modifier N.
-        negated: bool,
-        /// What is loaded.
-        operand: Operand,
-    },
-    /// variable := CR, complemented if `negated`.
-    Store {
-        /// Modifier N.
-        negated: bool,
-        /// Where to.
-        variable: VarId,
-    },
-    /// variable := TRUE if CR is TRUE.
-    Set(VarId),
-    /// variable := FALSE if CR is TRUE.
-    Reset(VarId),
-    /// CR := NOT CR.
-    Complement,
-    /// CR := CR function operand, the operand complemented if `negated`.
-    Combine {
-        /// The function.
-        function: Function,
-        /// Modifier N.
-        negated: bool,
-        /// The right operand.
-        operand: Operand,
-    },
-    /// Go on at the line `target` if the condition holds of CR.
-    Jump {
-        /// When.
-        condition: Condition,
-        /// Line, counted from 0.
-        target: usize,
-    },
 }
 
 impl FlatProgram {

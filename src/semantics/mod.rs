@@ -29,7 +29,7 @@ mod rule_types_supported;
 #[cfg(test)]
 mod testing;
 
-pub use program::{Action, Condition, Function, Operand, Program, Role, Statement, VarId, Variable};
+pub use program::{Action, Condition, Function, Instruction, Operand, Program, Role, Statement, VarId, Variable};
 
 use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::syntax::ast::{Pou, PouKind, Unit};

@@ -55,38 +55,11 @@ pub struct Statement {
     pub span: Span,
 }
 
-/// What an instruction does to the memory and the current result.
+/// What a statement does.
 #[derive(Clone, Debug)]
 pub enum Action {
-    /// `LD`, `LDN`
-    Load {
-        /// Modifier N.
-        negated: bool,
-        /// What is loaded.
-        operand: Operand,
-    },
-    /// `ST`, `STN`
-    Store {
-        /// Modifier N.
-        negated: bool,
-        /// Where to.
-        variable: VarId,
-    },
-    /// `S`
-    Set(VarId),
-    /// `R`
-    Reset(VarId),
-    /// `NOT`
-    Complement,
-    /// `AND`, `OR`, `XOR` with their modifier.
-    Combine {
-        /// The function.
-        function: Function,
-        /// Modifier N.
-        negated: bool,
-        /// The right operand; the left one is the current result.
-        operand: Operand,
-    },
+    /// One instruction.
+    Plain(Instruction),
     /// An operator deferred to the end of a parenthesis.
     Defer {
         /// The function.
@@ -100,11 +73,45 @@ pub enum Action {
         /// The closing parenthesis.
         close: Span,
     },
-    /// `JMP…` and `RET…`
+}
+
+/// What an instruction does to the memory and the current result (CR).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instruction {
+    /// `LD`, `LDN`: CR := operand, complemented if `negated`.
+    Load {
+        /// Modifier N.
+        negated: bool,
+        /// What is loaded.
+        operand: Operand,
+    },
+    /// `ST`, `STN`: variable := CR, complemented if `negated`.
+    Store {
+        /// Modifier N.
+        negated: bool,
+        /// Where to.
+        variable: VarId,
+    },
+    /// `S`: variable := TRUE if CR is TRUE.
+    Set(VarId),
+    /// `R`: variable := FALSE if CR is TRUE.
+    Reset(VarId),
+    /// `NOT`: CR := NOT CR.
+    Complement,
+    /// `AND`, `OR`, `XOR`: CR := CR function operand, the operand complemented if `negated`.
+    Combine {
+        /// The function.
+        function: Function,
+        /// Modifier N.
+        negated: bool,
+        /// The right operand.
+        operand: Operand,
+    },
+    /// `JMP…` and `RET…`: go on at `target` if the condition holds of CR.
     Jump {
         /// When.
         condition: Condition,
-        /// Position in the program's body; its length stands for the end.
+        /// Position in the list the instruction belongs to, from 0; its length stands for the end.
         target: usize,
     },
 }

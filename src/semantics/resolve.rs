@@ -1,9 +1,9 @@
 //! Builds the checked program once every rule is satisfied.
 
 use super::control_flow;
-use super::program::{Action, Function, Operand, Program, Statement, Variable};
+use super::program::{Action, Function, Instruction, Operand, Program, Statement, Variable};
 use super::{Context, Symbols};
-use crate::syntax::ast::{self, Instruction, Operation, Operator, Verb};
+use crate::syntax::ast::{self, Operation, Operator, Verb};
 
 /// The checked program. `None` would mean that a rule let something pass that has no meaning.
 pub fn program(context: &Context<'_>) -> Option<Program> {
@@ -36,13 +36,13 @@ pub fn program(context: &Context<'_>) -> Option<Program> {
 }
 
 fn statement(
-    instruction: &Instruction,
+    instruction: &ast::Instruction,
     symbols: &Symbols<'_>,
     target: &dyn Fn(&ast::Name) -> Option<usize>,
     end: usize,
 ) -> Option<Statement> {
     let action = match instruction.operation.as_ref()? {
-        Operation::Simple { operator, operands } => simple(*operator, operands.first(), symbols)?,
+        Operation::Simple { operator, operands } => Action::Plain(simple(*operator, operands.first(), symbols)?),
         Operation::Parenthesis { operator, first, body, close } => Action::Defer {
             function: function(operator.verb)?,
             negated: operator.negated,
@@ -53,26 +53,28 @@ fn statement(
             body: body.iter().map(|inner| statement(inner, symbols, target, end)).collect::<Option<_>>()?,
             close: *close,
         },
-        Operation::Jump { condition, target: label } => Action::Jump { condition: *condition, target: target(label)? },
-        Operation::Return { condition } => Action::Jump { condition: *condition, target: end },
+        Operation::Jump { condition, target: label } => {
+            Action::Plain(Instruction::Jump { condition: *condition, target: target(label)? })
+        }
+        Operation::Return { condition } => Action::Plain(Instruction::Jump { condition: *condition, target: end }),
         Operation::Call { .. } | Operation::Function { .. } | Operation::Broken => return None,
     };
     Some(Statement { action, span: instruction.span })
 }
 
-fn simple(operator: Operator, given: Option<&ast::Operand>, symbols: &Symbols<'_>) -> Option<Action> {
+fn simple(operator: Operator, given: Option<&ast::Operand>, symbols: &Symbols<'_>) -> Option<Instruction> {
     let negated = operator.negated;
     let variable = || match operand(given?, symbols)? {
         Operand::Variable(variable) => Some(variable),
         Operand::Constant(_) => None,
     };
     Some(match operator.verb {
-        Verb::Ld => Action::Load { negated, operand: operand(given?, symbols)? },
-        Verb::St => Action::Store { negated, variable: variable()? },
-        Verb::S => Action::Set(variable()?),
-        Verb::R => Action::Reset(variable()?),
-        Verb::Not => Action::Complement,
-        verb => Action::Combine { function: function(verb)?, negated, operand: operand(given?, symbols)? },
+        Verb::Ld => Instruction::Load { negated, operand: operand(given?, symbols)? },
+        Verb::St => Instruction::Store { negated, variable: variable()? },
+        Verb::S => Instruction::Set(variable()?),
+        Verb::R => Instruction::Reset(variable()?),
+        Verb::Not => Instruction::Complement,
+        verb => Instruction::Combine { function: function(verb)?, negated, operand: operand(given?, symbols)? },
     })
 }
 
