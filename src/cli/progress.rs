@@ -1,5 +1,6 @@
 //! Watching a search: figures on the terminal while it runs, and the limit of time.
 
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanBytes, HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -13,7 +14,12 @@ pub struct Watcher {
     bar: ProgressBar,
     started: Instant,
     timeout: Option<Duration>,
+    /// When the figures were last shown, in time since the start.
+    shown: Cell<Duration>,
 }
+
+/// How long work may take before anything is shown, and between two figures.
+const PAUSE: Duration = Duration::from_millis(250);
 
 impl Watcher {
     /// Sets the number of threads, and begins to watch.
@@ -30,23 +36,30 @@ impl Watcher {
         // Drawn on standard error, and only if that is a terminal.
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         bar.set_style(ProgressStyle::default_spinner());
-        Ok(Self { bar, started: Instant::now(), timeout })
+        Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
     }
 
     /// Shows the figures; gives a reason to stop if time is up.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
-        if elapsed > Duration::from_millis(500) {
-            let rate = progress.states as f64 / elapsed.as_secs_f64();
-            self.bar.set_message(format!(
-                "exploring: {} states, {} still to expand, depth {}, {} states/s, {}",
-                HumanCount(progress.states),
-                HumanCount(progress.states - progress.expanded),
-                progress.depth,
-                HumanCount(rate as u64),
-                HumanBytes(progress.bytes),
-            ));
-            self.bar.tick();
+        let done = progress.expanded == progress.states;
+        if elapsed > self.shown.get() + PAUSE || (done && elapsed > PAUSE) {
+            if self.shown.replace(elapsed).is_zero() {
+                self.bar.enable_steady_tick(Duration::from_millis(100));
+            }
+            self.bar.set_message(if done {
+                format!("explored {} states, checking the requirements", HumanCount(progress.states))
+            } else {
+                let rate = progress.states as f64 / elapsed.as_secs_f64();
+                format!(
+                    "exploring: {} states, {} still to expand, depth {}, {} states/s, {}",
+                    HumanCount(progress.states),
+                    HumanCount(progress.states - progress.expanded),
+                    progress.depth,
+                    HumanCount(rate as u64),
+                    HumanBytes(progress.bytes),
+                )
+            });
         }
         let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
         Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))

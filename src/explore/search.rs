@@ -14,12 +14,16 @@ use super::store::Store;
 /// Successors computed before they are entered, at most, unless one state alone has more.
 const BATCH: u64 = 1 << 18;
 
+/// Batches of fewer states are expanded on one thread.
+const ALONE: usize = 64;
+
 /// Explores a space until everything is found, the budget is used up, or `watch` gives a reason to stop. `watch` is called
-/// before each batch.
+/// before each batch, and once at the end.
 pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Graph {
     let mut search = Search { space, budget, graph: empty(space.words()), kernels: None };
     search.kernels = space.relevant().map(|_| Store::new(space.words()));
     search.graph.stop = search.run(watch);
+    watch(&search.progress());
     search.graph
 }
 
@@ -66,8 +70,13 @@ impl Search<'_> {
                 let rest = self.graph.expanded() as u32..level.end;
                 let Some(batch) = self.batch(rest) else { return Stop::States(self.budget.states) };
                 let (space, store) = (self.space, &self.graph.store);
-                let expansions: Vec<Expansion> =
-                    batch.par_iter().map(|&id| Expansion::of(|add| space.successors(store.get(id), add))).collect();
+                let expand = |&id: &u32| Expansion::of(|add| space.successors(store.get(id), add));
+                // Waking other threads costs more than a few states.
+                let expansions: Vec<Expansion> = if batch.len() < ALONE {
+                    batch.iter().map(expand).collect()
+                } else {
+                    batch.par_iter().map(expand).collect()
+                };
                 for (id, expansion) in batch.iter().zip(&expansions) {
                     self.enter(*id, expansion);
                 }
