@@ -6,7 +6,7 @@ mod support;
 
 use fixedbitset::FixedBitSet;
 use petril::explore::{Budget, Graph, StateSpace, Step, explore};
-use petril::logic::{Bound, Dag, Node, evidence, label};
+use petril::logic::{Bound, Dag, Node, Quantifier, evidence, label};
 use petril::semantics::VarId;
 use proptest::prelude::*;
 use support::naive_ctl::Kripke;
@@ -118,7 +118,7 @@ fn found(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(5000))]
 
     #[test]
     fn on_whole_graphs(given in given(), formula in formula()) {
@@ -197,10 +197,32 @@ proptest! {
     }
 }
 
+/// Of two temporal parts of a conjunction a run follows one. Once, it went on with the second where the first had begun,
+/// and two of its states did not follow each other.
+#[test]
+fn a_run_does_not_mix_two_parts_of_a_conjunction() {
+    // 0 steps to itself and to 1, which ends; p holds in 0, r in 1.
+    let (p, r, never) = (0, 1, 2);
+    let marks = vec![1 << p, 1 << r];
+    let given = Given { flavours: 1, successors: vec![vec![0, 1], vec![]], marks, initial: vec![0], shared: false };
+    let variable = |v| Box::new(Bound::Variable(VarId(v)));
+    let next_r = Bound::Next(Quantifier::Some, variable(r));
+    let hold = Bound::Truth(false);
+    let always_p =
+        Bound::Until { quantifier: Quantifier::Some, weak: true, hold: variable(p), release: Box::new(hold) };
+    let formula = Bound::And(Box::new(next_r), Box::new(Bound::Or(Box::new(always_p), variable(never))));
+    let graph = given.explored(u64::MAX);
+    let mut dag = Dag::default();
+    let node = dag.add(&formula, false);
+    let labels = label(&graph, &dag, &|f, id| given.atom(f, given.name(&graph, id)), None);
+    let evidence = evidence(&graph, &dag, &labels, None, node, graph.initial()).unwrap();
+    assert_eq!((evidence.states, evidence.loop_start), (vec![0, 1], None));
+}
+
 /// Whether one run can show a node: existential operators only, at most one of them in each conjunction, and on the left of
 /// untils none.
 fn only_existential(dag: &Dag, node: petril::logic::NodeId) -> bool {
-    use petril::logic::Quantifier::Some as Exists;
+    use Quantifier::Some as Exists;
     let is_state = |node| matches!(dag.node(node), Node::State { .. });
     match *dag.node(node) {
         Node::State { .. } => true,

@@ -147,6 +147,15 @@ impl Explainer<'_> {
         distances
     }
 
+    /// Whether a node speaks of one state only, so that explaining it takes no step.
+    fn is_local(&self, id: NodeId) -> bool {
+        match *self.dag.node(id) {
+            Node::State { .. } => true,
+            Node::And(f, g) | Node::Or(f, g) => self.is_local(f) && self.is_local(g),
+            _ => false,
+        }
+    }
+
     fn claim(&mut self, node: NodeId) {
         let position = self.evidence.states.len() - 1;
         self.evidence.claims.push(Claim { position, node });
@@ -157,17 +166,15 @@ impl Explainer<'_> {
         let s = state as usize;
         match *self.dag.node(id) {
             Node::And(f, g) => {
-                let (f_cost, g_cost) = (self.cost(f)[s], self.cost(g)[s]);
-                let f_is_state = matches!(self.dag.node(f), Node::State { .. });
-                let (first, second) = if g_cost > f_cost || (g_cost == f_cost && f_is_state) { (g, f) } else { (f, g) };
-                match self.dag.node(second) {
-                    // A conjunct about this state is shown by it.
-                    Node::State { .. } | Node::And(..) | Node::Or(..) if self.cost(second)[s] == 0 => {
-                        self.explain(second, state);
-                    }
-                    _ => self.claim(second),
+                // One run can show one temporal part; the other one is only claimed.
+                let follow_g = !self.is_local(g) && (self.is_local(f) || self.cost(g)[s] > self.cost(f)[s]);
+                let (followed, other) = if follow_g { (g, f) } else { (f, g) };
+                if self.is_local(other) {
+                    self.explain(other, state)
+                } else {
+                    self.claim(other)
                 }
-                self.explain(first, state);
+                self.explain(followed, state);
             }
             Node::Or(f, g) => {
                 let better = if self.cost(g)[s] < self.cost(f)[s] { g } else { f };
