@@ -59,7 +59,7 @@ fn block_end(bytes: &[u8], start: usize) -> Option<usize> {
 }
 
 fn line_end(bytes: &[u8], start: usize) -> usize {
-    bytes[start..].iter().position(|&b| b == b'\n').map_or(bytes.len(), |n| start + n)
+    bytes[start..].iter().position(|b| b"\r\n".contains(b)).map_or(bytes.len(), |n| start + n)
 }
 
 #[cfg(test)]
@@ -79,6 +79,7 @@ mod tests {
         assert_eq!(blanked("a(*\n*)b"), "a     b");
         assert_eq!(blanked("(*)*)x"), "     x", "the star of `(*` does not close it");
         assert_eq!(blanked("LD a // last"), "LD a        ");
+        assert_eq!(blanked("// a\rb // c\r\n"), "    \rb     \r\n");
     }
 
     #[test]
