@@ -9,7 +9,7 @@ mod render;
 mod suggest;
 
 pub use code::{Code, Severity};
-pub use expected::expected;
+pub use expected::{expected, plain_letters};
 pub use render::{Style, render};
 pub use suggest::nearest;
 

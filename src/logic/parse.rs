@@ -249,13 +249,23 @@ fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
     let (text, start) = (pair.as_str(), pair.as_span().start());
     let help = "write it like `requirement name \"what it says\": AG (a -> b);`";
     match RequirementParser::parse(Rule::lone_requirement, text) {
-        Err(error) => diagnostic(&error, text, start).help(help),
+        Err(error) => {
+            let diagnostic = diagnostic(&error, text, start);
+            if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
+        }
         Ok(_) => Diagnostic::new(Code::RequirementSyntax, span(pair), "this cannot stand here").help(help),
     }
 }
 
 fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
-    diagnostic::expected(error, (text, start), Code::RequirementSyntax, "the end", name)
+    let diagnostic = diagnostic::expected(error, (text, start), Code::RequirementSyntax, "the end", name);
+    let at = diagnostic.span().start - start;
+    if text[at..].starts_with("(*") {
+        let span = Span::new(start + at, start + at + 2);
+        return Diagnostic::new(Code::RequirementSyntax, span, "this comment is never closed")
+            .help("close it with `*)`");
+    }
+    diagnostic::plain_letters(diagnostic, (text, start))
 }
 
 fn name(rule: Rule) -> Option<&'static str> {
