@@ -73,6 +73,13 @@ impl Diagnostic {
         }
     }
 
+    /// The same for the problem at this position of a list, from 0: nobody reads the hundred-and-first, and to suggest a
+    /// name for each of thousands takes minutes.
+    #[must_use]
+    pub fn suggest_at<'a>(self, position: usize, written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Self {
+        if position < 100 { self.suggest(written, candidates) } else { self }
+    }
+
     /// The place the reader is sent to.
     #[must_use]
     pub fn span(&self) -> Span {

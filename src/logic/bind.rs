@@ -91,7 +91,11 @@ impl Binder<'_> {
             }
             Expression::Number(_) | Expression::Sum(..) | Expression::Difference(..) | Expression::Product(..) => {
                 let message = "this is a number, where something true or false is needed";
-                let help = "compare it with something, like `… = 1`";
+                let help = match &formula.expression {
+                    Expression::Number(0) => "write `FALSE`",
+                    Expression::Number(1) => "write `TRUE`",
+                    _ => "compare it with something, like `… = 1`",
+                };
                 self.error(Diagnostic::new(Code::RequirementTypes, formula.span, message).help(help))
             }
         }
@@ -132,7 +136,11 @@ impl Binder<'_> {
         let Some(variable) = program.find(name) else {
             let message = format!("the program `{}` has no variable `{name}`", program.name);
             let names = program.declared().map(|id| program.variable(id).name.as_str());
-            return self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names));
+            return self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest_at(
+                self.errors.len(),
+                name,
+                names,
+            ));
         };
         match self.view {
             View::Scan => Bound::Variable(variable),
@@ -173,7 +181,11 @@ impl Binder<'_> {
             (View::Transition, None) => {
                 let names = net.places().iter().map(|place| place.name.as_str());
                 let message = format!("the net has no place `{name}`");
-                self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names))
+                self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest_at(
+                    self.errors.len(),
+                    name,
+                    names,
+                ))
             }
         }
     }
@@ -186,7 +198,11 @@ impl Binder<'_> {
             (View::Transition, None) => {
                 let names = net.transitions().iter().map(|transition| transition.name.as_str());
                 let message = format!("the net has no transition `{name}`");
-                self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names))
+                self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest_at(
+                    self.errors.len(),
+                    name,
+                    names,
+                ))
             }
         }
     }
