@@ -40,7 +40,7 @@ pub fn explore(
             if let Some(&twice) = transition.produce.iter().find(|place| is_marked(place)) {
                 let message =
                     format!("the plant is not safe: `{}` can get a second token", component.places[twice].name);
-                let help = format!("{}, `{}` puts it there", history(&parents), transition.name);
+                let help = format!("`{}` puts it there, {}", transition.name, history(&parents));
                 return Err(Box::new(Diagnostic::new(Code::PlantNotSafe, span(twice), message).help(help)));
             }
             let mut next: Vec<usize> = marked.iter().copied().filter(|p| !transition.consume.contains(p)).collect();
@@ -109,7 +109,7 @@ fn ambiguous(
             Diagnostic::new(Code::PlantInputAmbiguous, span(giving.unwrap_or(0)), message)
         }
     };
-    Box::new(diagnostic.help(format!("this is so {history}")))
+    Box::new(diagnostic.help(format!("this is so {history}; exactly one such place must be marked, always")))
 }
 
 /// How a marking is reached, in words.
@@ -122,7 +122,8 @@ fn history(component: &Component, parents: &[Option<(usize, usize)>], mut markin
     fired.reverse();
     match fired.len() {
         0 => "at the beginning".to_owned(),
-        1..=8 => format!("after `{}`", fired.join("`, `")),
-        n => format!("after {n} firings that end with `{}`", fired[n - 3..].join("`, `")),
+        1 => format!("after `{}` has fired", fired[0]),
+        2..=8 => format!("after `{}` have fired", fired.join("`, `")),
+        n => format!("after {n} firings, the last of them `{}`", fired[n - 3..].join("`, `")),
     }
 }

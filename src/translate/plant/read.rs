@@ -39,10 +39,16 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
     }
     let meanings: Vec<Meaning> = net
         .place_ids()
-        .filter_map(|place| meaning(file, place, program).map_err(|error| errors.push(error)).ok())
+        .filter_map(|place| meaning(file, place, program, errors.len()).map_err(|error| errors.push(error)).ok())
         .collect();
     if !errors.is_empty() {
         return Err(errors);
+    }
+    if meanings.iter().all(|meaning| meaning.values().is_empty()) {
+        let span = file.places.first().or(file.transitions.first()).copied().unwrap_or_default();
+        let message = format!("the plant `{}` gives no input a value and reads no output", net.name());
+        let help = "name its places by the values they stand for, like `S1=1,O1=0`";
+        return Err(vec![Diagnostic::new(Code::PlantVariableUnfit, span, message).help(help)]);
     }
     let components = split(file, &meanings, &mut errors);
     let components: Vec<Component> = components
@@ -69,7 +75,8 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
     if errors.is_empty() { Ok(components) } else { Err(errors) }
 }
 
-fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Meaning, Diagnostic> {
+/// What a place is to the program; `position` is that of its diagnostic, if there will be one.
+fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usize) -> Result<Meaning, Diagnostic> {
     let (name, span) = (&file.net.place(place).name, file.place_span(place));
     let unfit = |message: String| Diagnostic::new(Code::PlantVariableUnfit, span, message);
     let assignments = match valuation::parse(name) {
@@ -86,7 +93,8 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Mean
         let Some(variable) = program.find(written) else {
             let message = format!("the program `{}` has no input or output `{written}`", program.name);
             let names = visible().map(|id| program.variable(id).name.as_str());
-            return Err(Diagnostic::new(Code::PlantVariableUnknown, span, message).suggest(written, names));
+            let unknown = Diagnostic::new(Code::PlantVariableUnknown, span, message);
+            return Err(unknown.suggest_at(position, written, names));
         };
         if values.iter().any(|&(earlier, _)| earlier == variable) {
             return Err(unfit(format!("`{written}` stands twice in one place name")));
@@ -104,10 +112,15 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Mean
         }
         values.push((variable, value));
     }
-    match values.first() {
-        Some(&(first, _)) if program.variable(first).role == Role::Output => Ok(Meaning::Test(values)),
-        _ => Ok(Meaning::Own(values)),
+    if values.first().is_none_or(|&(first, _)| program.variable(first).role == Role::Input) {
+        return Ok(Meaning::Own(values));
     }
+    let is_so = |&(output, value): &(VarId, bool)| program.variable(output).initial == value;
+    if file.net.place(place).marked && !values.iter().all(is_so) {
+        let message = format!("`{name}` is marked, but the program does not begin with these outputs");
+        return Err(unfit(message).help("leave it unmarked: the program decides when it is marked"));
+    }
+    Ok(Meaning::Test(values))
 }
 
 /// The connected components, each with the net's places it is made of. Outputs connect nothing.
