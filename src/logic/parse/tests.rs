@@ -54,6 +54,7 @@ fn operators_bind_as_the_language_says() {
         ("E[a W E [b U c]]", "Some[a W Some[b U c]]"),
         ("AX(a)", "All Next a"),
         ("AX & EG = AG", "(AX & (EG Equal AG))"),
+        ("AX != EG & AG !a", "((AX Unequal EG) & All Globally !a)"),
         ("A = 1 & E | U", "(((A Equal 1) & E) | U)"),
         ("at line 3 -> at idle | at END", "(at 3 -> (at idle | at End))"),
         ("marked(\"S1=1\") & enabled( \"block\" )", "(<S1=1> & <<block>>)"),
