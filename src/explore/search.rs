@@ -28,8 +28,8 @@ pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Pr
         stop: Stop::Complete,
         backward: OnceLock::new(),
     };
-    if space.fan_out(None) > budget.states {
-        graph.stop = Stop::States(budget.states);
+    if space.fan_out(None) > most(budget) {
+        graph.stop = Stop::States(most(budget));
         return graph;
     }
     let mut roots = Expansion::default();
@@ -77,7 +77,7 @@ fn batch(graph: &Graph, space: &dyn StateSpace, rest: Range<u32>, budget: Budget
     for id in rest.clone() {
         let fan_out = space.fan_out(Some(graph.state(id)));
         total = fan_out.saturating_add(total);
-        if fan_out > budget.states || (end > rest.start && total > BATCH) {
+        if fan_out > most(budget) || (end > rest.start && total > BATCH) {
             break;
         }
         end += 1;
@@ -86,11 +86,16 @@ fn batch(graph: &Graph, space: &dyn StateSpace, rest: Range<u32>, budget: Budget
 }
 
 fn within(graph: &Graph, budget: Budget) -> bool {
-    (graph.len() as u64) <= budget.states.min(u64::from(u32::MAX) >> 1) && graph.bytes() <= budget.bytes
+    graph.len() as u64 <= most(budget) && graph.bytes() <= budget.bytes
+}
+
+/// How many states there may be: what the budget allows, and no more than can be numbered.
+fn most(budget: Budget) -> u64 {
+    budget.states.min(u64::from(u32::MAX) >> 1)
 }
 
 fn exhausted(graph: &Graph, budget: Budget) -> Stop {
-    if graph.bytes() > budget.bytes { Stop::Bytes(budget.bytes) } else { Stop::States(budget.states) }
+    if graph.bytes() > budget.bytes { Stop::Bytes(budget.bytes) } else { Stop::States(most(budget)) }
 }
 
 fn progress(graph: &Graph) -> Progress {
