@@ -12,8 +12,9 @@ use crate::syntax::ast::{Name, Operand, Operation, with_nested};
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let operations = with_nested(&context.pou.body).filter_map(|(instruction, _)| instruction.operation.as_ref());
     let operands = operations.flat_map(|operation| match operation {
-        Operation::Simple { operands, .. } => operands.iter().collect(),
-        Operation::Parenthesis { first, .. } => first.iter().collect(),
+        // Of an operator that is not supported it is enough to say so.
+        Operation::Simple { operator, operands } if operator.verb.is_boolean() => operands.iter().collect(),
+        Operation::Parenthesis { operator, first, .. } if operator.verb.is_boolean() => first.iter().collect(),
         _ => Vec::new(),
     });
     let names = operands.filter_map(|operand| match operand {
@@ -42,7 +43,7 @@ fn undeclared(name: &Name, position: usize, context: &Context<'_>) -> Option<Dia
     if let Some((_, symbol)) = context.symbols.find(base) {
         // Of a type that is not supported nothing can be said.
         symbol.role?;
-        let message = format!("`{base}` has no parts, so there is no `{}`", name.text);
+        let message = format!("`{base}` is of type `BOOL` and has no parts, so there is no `{}`", name.text);
         return Some(Diagnostic::new(Code::OperandUnfit, name.span, message));
     }
     let message = format!("`{}` is not declared", name.text);

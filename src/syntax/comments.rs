@@ -16,8 +16,14 @@ pub fn blank(source: &Source) -> (String, Option<Diagnostic>) {
         let end = match &bytes[at..] {
             [b'(', b'*', ..] => block_end(bytes, at).unwrap_or_else(|| {
                 let span = Span::new(at, at + 2);
+                let holds_another = bytes[at + 2..].windows(2).any(|pair| pair == b"(*");
+                let help = if holds_another {
+                    "close it with `*)`; comments nest, so each `(*` inside it needs its own"
+                } else {
+                    "close it with `*)`"
+                };
                 let message = "this comment is never closed";
-                unclosed = Some(Diagnostic::new(Code::CommentNotClosed, span, message).help("close it with `*)`"));
+                unclosed = Some(Diagnostic::new(Code::CommentNotClosed, span, message).help(help));
                 bytes.len()
             }),
             [b'/', b'/', ..] => line_end(bytes, at),

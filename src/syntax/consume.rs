@@ -57,7 +57,11 @@ fn pou(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou> {
         match piece.as_rule() {
             Rule::identifier => pou_name = name(&piece),
             Rule::result_type => result = Some(name(&piece)),
-            _ => diagnostics.push(expected::explain(Rule::lone_head, whole_head.as_str(), kind_word.span.start)),
+            _ => {
+                let explained = expected::explain(Rule::lone_head, whole_head.as_str(), kind_word.span.start);
+                let help = format!("it begins like `{kind} name`");
+                diagnostics.push(if explained.help.is_empty() { explained.help(help) } else { explained });
+            }
         }
     }
     let mut pou = Pou { kind, name: pou_name, result, blocks: Vec::new(), body: Vec::new() };

@@ -160,6 +160,7 @@ impl ListBuilder {
         if let Some(innermost) = self.open.last() {
             let message = match self.open.len() + self.too_deep {
                 1 => "this parenthesis is never closed".to_owned(),
+                2 => "this parenthesis and the one around it are never closed".to_owned(),
                 n => format!("this parenthesis and {} around it are never closed", n - 1),
             };
             let help = "close it with `)` on a line of its own";

@@ -1,6 +1,6 @@
 //! A net to devices of a plant, with every check that a plant must pass.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use petgraph::unionfind::UnionFind;
 
@@ -10,6 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::flat::FlatProgram;
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
+use crate::source::Span;
 use crate::translate::valuation;
 
 /// What a place of the net is to the program.
@@ -37,10 +38,15 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
         let message = format!("there are two plants named `{}`", net.name());
         errors.push(Diagnostic::new(Code::PlantNameTwice, span, message).help("give each net a name of its own"));
     }
-    let meanings: Vec<Meaning> = net
-        .place_ids()
-        .filter_map(|place| meaning(file, place, program, errors.len()).map_err(|error| errors.push(error)).ok())
-        .collect();
+    let mut meanings: Vec<Meaning> = Vec::with_capacity(net.places().len());
+    let mut messages = BTreeSet::new();
+    for place in net.place_ids() {
+        match meaning(file, place, program, errors.len()) {
+            Ok(meaning) => meanings.push(meaning),
+            // A variable that does not exist is missed by a place for each of its values.
+            Err(error) => errors.extend(messages.insert(error.message.clone()).then_some(error)),
+        }
+    }
     if !errors.is_empty() {
         return Err(errors);
     }
@@ -64,12 +70,13 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
             let giving = net.place_ids().filter(
                 |place| matches!(&meanings[place.index()], Meaning::Own(drives) if drives.iter().any(|d| d.0 == input)),
             );
-            let span = giving.map(|place| file.place_span(place)).last().unwrap_or_default();
+            let spans: Vec<Span> = giving.map(|place| file.place_span(place)).collect();
+            let (first, last) = (spans.first().copied().unwrap_or_default(), spans.last().copied().unwrap_or_default());
             let message = format!("two devices drive the input `{}`", program.variable(input).name);
-            errors.push(
-                Diagnostic::new(Code::PlantInputAmbiguous, span, message)
-                    .help("let one connected net hold all places that give this input a value"),
-            );
+            let diagnostic = Diagnostic::new(Code::PlantInputAmbiguous, last, message);
+            let diagnostic =
+                if first == last { diagnostic } else { diagnostic.also(first, "no transition joins them") };
+            errors.push(diagnostic.help("let one connected net hold all places that give this input a value"));
         }
     }
     if errors.is_empty() { Ok(components) } else { Err(errors) }
