@@ -123,7 +123,7 @@ pub fn requirements(
     let mut failed = false;
     let mut texts = Vec::new();
     for (i, formula) in formulas.iter().enumerate() {
-        let source = Source::new(format!("requirement {}", i + 1), formula.as_str());
+        let source = Source::new(format!("formula r{}", i + 1), formula.as_str());
         texts.push(match parse_formula(&format!("r{}", i + 1), &source) {
             Ok(requirement) => (vec![requirement], vec![], source),
             Err(error) => (vec![], vec![error], source),
@@ -145,7 +145,8 @@ pub fn requirements(
         for requirement in requirements {
             if bound[..others].iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
                 let message = format!("a requirement named `{}` was given already", requirement.name);
-                diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message));
+                let help = "give each a name of its own; the formulas of `-r` are named r1, r2, …";
+                diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message).help(help));
             }
             if diagnostics.len() >= MAX_DIAGNOSTICS {
                 break;

@@ -58,8 +58,8 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
     let mut errors = Vec::new();
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text().as_bytes());
     // The reader gives no columns, so a diagnostic points at the whole line.
-    let line = |record: &csv::StringRecord| {
-        let start = record.position().map_or(0, |position| position.byte() as usize);
+    let line = |position: Option<&csv::Position>| {
+        let start = position.map_or(0, |position| position.byte() as usize);
         let length = source.text().get(start..).and_then(|rest| rest.lines().next()).map_or(0, str::len);
         Span::new(start, start + length)
     };
@@ -75,15 +75,18 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
     let mut names = BTreeSet::new();
     for twice in head.iter().filter(|name| !names.insert(key(name))) {
         let message = format!("two columns are named `{twice}`");
-        errors.push(Diagnostic::new(Code::InputTable, line(&head), message).help("remove one of them"));
+        errors.push(Diagnostic::new(Code::InputTable, line(head.position()), message).help("remove one of them"));
     }
     let columns: Vec<Option<VarId>> = (head.iter())
         .map(|name| {
             let input = known().find(|&id| program.variable(id).name.eq_ignore_ascii_case(name));
             if input.is_none() {
-                let message = format!("the program `{}` has no input `{name}`", program.name);
+                let message = match program.find(name) {
+                    Some(_) => format!("`{name}` is no input of the program `{}`", program.name),
+                    None => format!("the program `{}` has no input `{name}`", program.name),
+                };
                 let names = known().map(|id| program.variable(id).name.as_str());
-                errors.push(Diagnostic::new(Code::InputTable, line(&head), message).suggest_at(
+                errors.push(Diagnostic::new(Code::InputTable, line(head.position()), message).suggest_at(
                     errors.len(),
                     name,
                     names,
@@ -97,8 +100,7 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
         let record = match record {
             Ok(record) => record,
             Err(error) => {
-                let start = error.position().map_or(0, |position| position.byte() as usize);
-                errors.push(malformed(&error, Span::new(start, start)));
+                errors.push(malformed(&error, line(error.position())));
                 continue;
             }
         };
@@ -109,7 +111,8 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
                 (None, _) => {}
                 (Some(_), None) => {
                     let message = format!("`{cell}` is no value of type `BOOL`");
-                    errors.push(Diagnostic::new(Code::InputTable, line(&record), message).help("write 0 or 1"));
+                    errors
+                        .push(Diagnostic::new(Code::InputTable, line(record.position()), message).help("write 0 or 1"));
                 }
             }
         }
