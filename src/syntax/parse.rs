@@ -5,7 +5,7 @@ use pest_derive::Parser;
 
 use super::ast::Unit;
 use super::{comments, consume, expected};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::source::{Source, Span};
 
 #[derive(Parser)]
@@ -29,7 +29,7 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
             Unit::default()
         }
     };
-    if unit.pous.is_empty() && diagnostics.is_empty() {
+    if unit.pous.is_empty() && !any_error(&diagnostics) {
         let end = source.text().trim_end().len();
         diagnostics.push(
             Diagnostic::new(Code::NothingToCheck, Span::new(end, end), "this file holds no program")
