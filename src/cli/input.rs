@@ -47,11 +47,11 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
             let message = format!("this file is no text: byte {} is NUL", offset + 1);
             (message, "save it as plain text, in UTF-8 or ISO 8859-1")
         };
-        refuse(Code::NotText, Span::new(offset, offset), message, help, &readable(&bytes[..offset]))
+        refuse(Code::NotText, Span::new(offset, offset + 1), message, help, &readable(&bytes[..=offset]))
     })
 }
 
-/// Bytes before a NUL, as text of the same length.
+/// Bytes up to a NUL, as text of the same length.
 fn readable(bytes: &[u8]) -> Vec<u8> {
     bytes.iter().map(|&b| if b.is_ascii_graphic() || b.is_ascii_whitespace() { b } else { b'.' }).collect()
 }

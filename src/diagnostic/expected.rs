@@ -20,6 +20,8 @@ pub fn expected<R: RuleType>(
     let at = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
     };
+    // The end is where the last word ends.
+    let at = if text[at..].trim().is_empty() { at.min(text.trim_end().len()) } else { at };
     let token = first_token(&text[at..]);
     let span = Span::new(start + at, start + at + token.len());
     let found = if token.is_empty() { end.to_owned() } else { format!("`{token}`") };

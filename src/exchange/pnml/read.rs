@@ -44,7 +44,7 @@ fn malformed(error: &roxmltree::Error, source: &Source) -> Diagnostic {
         // These have no position of their own.
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => source.text().trim_end().len(),
         Error::DtdDetected => source.text().find("<!DOCTYPE").unwrap_or(0),
-        _ => offset(source, error.pos()),
+        _ => offset(source, error.pos()).min(source.text().trim_end().len()),
     };
     if matches!(error, Error::DtdDetected) {
         let span = Span::new(at, at + "<!DOCTYPE".len());
