@@ -7,6 +7,7 @@ pub mod naive_ctl;
 pub mod process;
 pub mod random_formula;
 pub mod random_program;
+pub mod reports;
 pub mod systems;
 
 use petril::flat::{FlatProgram, flatten};
