@@ -57,6 +57,13 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
         return Err(vec![Diagnostic::new(Code::PlantVariableUnfit, span, message).help(help)]);
     }
     let components = split(file, &meanings, &mut errors);
+    let taken: BTreeSet<&str> = others.components.iter().flat_map(names).collect();
+    if let Some(twice) = components.iter().flat_map(|(component, _)| names(component)).find(|name| taken.contains(name))
+    {
+        let span = file.places.first().or(file.transitions.first()).copied().unwrap_or_default();
+        let message = format!("two plants have something named `{twice}`");
+        errors.push(Diagnostic::new(Code::PlantNameTwice, span, message).help("give one of the nets another name"));
+    }
     let components: Vec<Component> = components
         .into_iter()
         .filter_map(|(mut component, places)| {
@@ -128,6 +135,13 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
         return Err(unfit(message).help("leave it unmarked: the program decides when it is marked"));
     }
     Ok(Meaning::Test(values))
+}
+
+/// The names a component gives to nodes of the system net.
+fn names(component: &Component) -> impl Iterator<Item = &str> {
+    let places = component.places.iter().map(|place| place.name.as_str());
+    let transitions = component.transitions.iter().map(|transition| transition.name.as_str());
+    places.chain(transitions).chain([component.name.as_str()])
 }
 
 /// The connected components, each with the net's places it is made of. Outputs connect nothing.
