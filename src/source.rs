@@ -59,7 +59,8 @@ impl Source {
     }
 
     /// A source from the bytes of a file: UTF-8 with or without a byte order mark, else ISO 8859-1, which is what the
-    /// engineering tools of the 1990s wrote and which reads any bytes.
+    /// engineering tools of the 1990s wrote and which reads any bytes. A carriage return without a line feed, the line end
+    /// of old Macintosh files, becomes a line feed.
     ///
     /// # Errors
     /// [`NotText`] if the bytes hold a NUL, so are no text in either encoding.
@@ -72,7 +73,7 @@ impl Source {
             Ok(text) => text.to_owned(),
             Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
         };
-        Ok(Self::new(name, text))
+        Ok(Self::new(name, unify_line_ends(text)))
     }
 
     /// The name the text goes by in messages, usually the path as the user gave it.
@@ -121,6 +122,15 @@ impl Source {
     }
 }
 
+fn unify_line_ends(text: String) -> String {
+    if !text.contains('\r') {
+        return text;
+    }
+    let mut rest = text.chars().peekable();
+    let next = || rest.next().map(|c| if c == '\r' && rest.peek() != Some(&'\n') { '\n' } else { c });
+    std::iter::from_fn(next).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,5 +152,13 @@ mod tests {
         let latin1 = Source::decode("x", b"T\xFCr").unwrap();
         assert_eq!(latin1.text(), "Tür");
         assert_eq!(Source::decode("x", b"ab\0c").unwrap_err(), NotText { offset: 2 });
+    }
+
+    #[test]
+    fn a_line_ends_in_any_of_the_three_ways() {
+        let source = Source::decode("x", b"a\rb\r\nc\nd\r\r").unwrap();
+        let lines: Vec<&str> = (1..=6).map(|line| source.line_text(line)).collect();
+        assert_eq!(lines, ["a", "b", "c", "d", "", ""]);
+        assert_eq!(source.line_column(5), (3, 1), "bytes stay where they were");
     }
 }

@@ -14,7 +14,7 @@ pub struct Args {
     #[command(subcommand)]
     pub verb: Verb,
     /// Colours in messages.
-    #[arg(long = "color", alias = "colour", value_name = "WHEN", value_enum, default_value_t = When::Auto, global = true)]
+    #[arg(long = "color", alias = "colour", value_name = "WHEN", value_enum, default_value_t = When::Auto, global = true, display_order = 900)]
     pub colour: When,
 }
 

@@ -9,10 +9,10 @@ use petril::source::Source;
 use serde_json::Value;
 
 use super::args::When;
-use super::{Failure, Outcome, SUCCESS};
+use super::{Failure, Outcome, SUCCESS, reason};
 
 /// How many diagnostics of one file are printed. The first ones are the ones to mend.
-const MAX_DIAGNOSTICS: usize = 100;
+pub const MAX_DIAGNOSTICS: usize = 100;
 
 /// What there is to print to. Results go to standard output, messages to standard error.
 pub struct Console {
@@ -39,12 +39,12 @@ impl Console {
         }
     }
 
-    /// Prints the diagnostics of a file, most of them.
+    /// Prints the diagnostics of a file, most of them, each with an empty line behind it.
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], source: &Source) {
         let style = Style { colour: self.errors_in_colour, width: self.width };
         self.printed.borrow_mut().extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
         for diagnostic in diagnostics.iter().take(MAX_DIAGNOSTICS) {
-            self.message(&render(diagnostic, source, style));
+            self.message(&format!("{}\n", render(diagnostic, source, style)));
         }
         if let Some(more @ 1..) = diagnostics.len().checked_sub(MAX_DIAGNOSTICS) {
             self.message(&format!("… and {more} more in {}\n", source.name()));
@@ -68,7 +68,7 @@ impl Console {
             Ok(()) => Ok(SUCCESS),
             // The reader has seen enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),
-            Err(error) => Err(Failure::Message(format!("cannot print: {error}"))),
+            Err(error) => Err(Failure::Message(format!("cannot print: {}", reason(&error)))),
         }
     }
 

@@ -15,8 +15,8 @@ use petril::source::{NotText, Source, Span};
 use petril::syntax;
 use petril::translate::{Plant, System};
 
-use super::Failure;
-use super::console::Console;
+use super::console::{Console, MAX_DIAGNOSTICS};
+use super::{Failure, reason};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
 const MAX_TEXT: u64 = 64 << 20;
@@ -25,27 +25,33 @@ const MAX_NET: u64 = 2 << 30;
 /// Reads a file as text. `-` is standard input.
 pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Failure> {
     let name = path.display().to_string();
-    let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {error}"));
+    let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {}", reason(&error)));
     let mut bytes = Vec::new();
     let mut reader: Box<dyn Read> =
         if name == "-" { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(cannot)?) };
     reader.by_ref().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
-    let refuse = |code, span, message: String, bytes: &[u8]| {
+    let refuse = |code, span, message: String, help: &str, bytes: &[u8]| {
         let source = Source::new(name.clone(), String::from_utf8_lossy(bytes).into_owned());
-        console.diagnostics(&[Diagnostic::new(code, span, message)], &source);
+        console.diagnostics(&[Diagnostic::new(code, span, message).help(help)], &source);
         Failure::Reported
     };
     if bytes.len() as u64 > limit {
         let message = format!("this file has more than {} MiB", limit >> 20);
-        return Err(refuse(Code::FileTooLarge, Span::default(), message, b""));
+        return Err(refuse(Code::FileTooLarge, Span::default(), message, "is it the right file?", b""));
     }
     Source::decode(name.clone(), &bytes).map_err(|NotText { offset }| {
-        let message = format!("this file is no text: byte {offset} is NUL");
-        refuse(Code::NotText, Span::new(offset, offset), message, &readable(&bytes[..offset]))
+        let utf_16 = bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF");
+        let (message, help) = if utf_16 {
+            ("this file is written in UTF-16".to_owned(), "save it as UTF-8")
+        } else {
+            let message = format!("this file is no text: byte {} is NUL", offset + 1);
+            (message, "save it as plain text, in UTF-8 or ISO 8859-1")
+        };
+        refuse(Code::NotText, Span::new(offset, offset + 1), message, help, &readable(&bytes[..=offset]))
     })
 }
 
-/// Bytes before a NUL, as text of the same length.
+/// Bytes up to a NUL, as text of the same length.
 fn readable(bytes: &[u8]) -> Vec<u8> {
     bytes.iter().map(|&b| if b.is_ascii_graphic() || b.is_ascii_whitespace() { b } else { b'.' }).collect()
 }
@@ -117,7 +123,7 @@ pub fn requirements(
     let mut failed = false;
     let mut texts = Vec::new();
     for (i, formula) in formulas.iter().enumerate() {
-        let source = Source::new(format!("requirement {}", i + 1), formula.as_str());
+        let source = Source::new(format!("formula r{}", i + 1), formula.as_str());
         texts.push(match parse_formula(&format!("r{}", i + 1), &source) {
             Ok(requirement) => (vec![requirement], vec![], source),
             Err(error) => (vec![], vec![error], source),
@@ -139,7 +145,11 @@ pub fn requirements(
         for requirement in requirements {
             if bound[..others].iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
                 let message = format!("a requirement named `{}` was given already", requirement.name);
-                diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message));
+                let help = "give each a name of its own; the formulas of `-r` are named r1, r2, …";
+                diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message).help(help));
+            }
+            if diagnostics.len() >= MAX_DIAGNOSTICS {
+                break;
             }
             match bind(&requirement.formula, system, view) {
                 Ok(formula) => bound.push((requirement, formula)),

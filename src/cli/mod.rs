@@ -15,6 +15,7 @@ mod report;
 mod simulate;
 mod translate;
 
+use std::io;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -36,6 +37,16 @@ pub type Outcome = Result<ExitCode, Failure>;
 
 /// Everything holds, or the verb did what it was asked to.
 pub const SUCCESS: ExitCode = ExitCode::SUCCESS;
+
+/// Why a file could not be read or written, without the number the system gives it and without temporary paths.
+fn reason(error: &io::Error) -> String {
+    let mut innermost: &dyn std::error::Error = error;
+    while let Some(source) = innermost.source() {
+        innermost = source;
+    }
+    let text = innermost.to_string();
+    text.split(" (os error ").next().unwrap_or_default().to_lowercase()
+}
 
 /// Reads the command line and does what it says.
 pub fn run() -> ExitCode {

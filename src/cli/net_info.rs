@@ -9,6 +9,7 @@ use serde_json::json;
 use super::args::NetInfo;
 use super::console::Console;
 use super::progress::Watcher;
+use super::report::counted;
 use super::{Outcome, SUCCESS, input};
 
 /// Dead transitions named in the text, at most.
@@ -22,12 +23,15 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let graph = explore(&space, arguments.limits.budget(), &mut |progress| watcher.watch(progress));
     watcher.finish();
     let size = format!(
-        "net          {}\nplaces       {}\ntransitions  {}\narcs         {} ({} read arcs, counted as two)\n",
+        "net          {}\nplaces       {}\ntransitions  {}\narcs         {}{}\n",
         net.name(),
         net.places().len(),
         net.transitions().len(),
         net.arc_count(),
-        net.read_arc_count()
+        match net.read_arc_count() {
+            0 => String::new(),
+            n => format!(", of these {} counted as two", counted(n, "read arc")),
+        }
     );
     let mut document = json!({
         "net": net.name(),
@@ -59,12 +63,12 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         document["live_without_dead"] = json!(behaviour.live_without_dead);
         let yes = |fact: bool| if fact { "yes" } else { "no" };
         let text = format!(
-            "markings     {} reachable, {} firings between them\nsafe         yes\ndeadlocks    {}\n\
-             dead         {} transitions{}\nlive         {}{}\n",
+            "markings     {} reachable, {} between them\nsafe         yes\ndeadlocks    {}\n\
+             dead         {}{}\nlive         {}{}\n",
             graph.len(),
-            graph.steps(),
+            counted(graph.steps() as usize, "firing"),
             behaviour.deadlocks,
-            dead.len(),
+            counted(dead.len(), "transition"),
             named(&dead),
             yes(behaviour.live_without_dead),
             if dead.is_empty() { "" } else { " without the dead transitions" },

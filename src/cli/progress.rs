@@ -74,6 +74,6 @@ impl Watcher {
 impl Limits {
     /// The limits the search itself keeps.
     pub fn budget(&self) -> Budget {
-        Budget { states: self.max_states, bytes: self.max_memory << 20 }
+        Budget { states: self.max_states, bytes: self.max_memory.saturating_mul(1 << 20) }
     }
 }

@@ -62,10 +62,18 @@ impl Text<'_> {
         let exploration = &report.exploration;
         let (states, steps, depth) = (exploration.states, exploration.steps, exploration.depth);
         let mut out = match exploration.view {
-            View::Scan => format!("scan view: {states} states at the end of a scan, {steps} steps, {depth} scans deep"),
-            View::Transition => {
-                format!("transition view: {states} reachable markings, {steps} firings, {depth} firings deep")
-            }
+            View::Scan => format!(
+                "scan view: {} at the end of a scan, {}, {} deep",
+                counted(states, "state"),
+                counted(steps as usize, "step"),
+                counted(depth, "scan")
+            ),
+            View::Transition => format!(
+                "transition view: {}, {}, {} deep",
+                counted(states, "reachable marking"),
+                counted(steps as usize, "firing"),
+                counted(depth, "firing")
+            ),
         };
         out += &format!("; {}\n", exploration.stop);
         for assumption in &report.assumptions {
@@ -152,7 +160,7 @@ fn summary(report: &Report) -> String {
 }
 
 /// A number of things: `1 scan`, `2 scans`.
-fn counted(n: usize, thing: &str) -> String {
+pub fn counted(n: usize, thing: &str) -> String {
     if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 

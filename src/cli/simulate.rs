@@ -1,10 +1,13 @@
 //! `petril simulate`: a program scan by scan.
 
+use std::collections::BTreeSet;
+
 use petril::diagnostic::{Code, Diagnostic};
 use petril::flat::FlatProgram;
 use petril::interpret::{Fault, Machine};
 use petril::semantics::{Role, VarId};
 use petril::source::{Source, Span};
+use petril::syntax::ast::key;
 use petril::witness::{Column, Table};
 
 use super::args::{Format, Simulate};
@@ -55,23 +58,39 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
     let mut errors = Vec::new();
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text().as_bytes());
     // The reader gives no columns, so a diagnostic points at the whole line.
-    let line = |record: &csv::StringRecord| {
-        let start = record.position().map_or(0, |position| position.byte() as usize);
+    let line = |position: Option<&csv::Position>| {
+        let start = position.map_or(0, |position| position.byte() as usize);
         let length = source.text().get(start..).and_then(|rest| rest.lines().next()).map_or(0, str::len);
         Span::new(start, start + length)
     };
     let head = match reader.headers() {
         Ok(head) => head.clone(),
-        Err(error) => return Err(vec![Diagnostic::new(Code::InputTable, Span::default(), error.to_string())]),
+        Err(error) => return Err(vec![malformed(&error, Span::default())]),
     };
+    if head.is_empty() {
+        let empty = Diagnostic::new(Code::InputTable, Span::default(), "this table of inputs is empty");
+        return Err(vec![empty.help("write the names of the inputs in the first row, then one row for each scan")]);
+    }
     let known = || program.with_role(Role::Input);
+    let mut names = BTreeSet::new();
+    for twice in head.iter().filter(|name| !names.insert(key(name))) {
+        let message = format!("two columns are named `{twice}`");
+        errors.push(Diagnostic::new(Code::InputTable, line(head.position()), message).help("remove one of them"));
+    }
     let columns: Vec<Option<VarId>> = (head.iter())
         .map(|name| {
             let input = known().find(|&id| program.variable(id).name.eq_ignore_ascii_case(name));
             if input.is_none() {
-                let message = format!("the program `{}` has no input `{name}`", program.name);
+                let message = match program.find(name) {
+                    Some(_) => format!("`{name}` is no input of the program `{}`", program.name),
+                    None => format!("the program `{}` has no input `{name}`", program.name),
+                };
                 let names = known().map(|id| program.variable(id).name.as_str());
-                errors.push(Diagnostic::new(Code::InputTable, line(&head), message).suggest(name, names));
+                errors.push(Diagnostic::new(Code::InputTable, line(head.position()), message).suggest_at(
+                    errors.len(),
+                    name,
+                    names,
+                ));
             }
             input
         })
@@ -81,8 +100,7 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
         let record = match record {
             Ok(record) => record,
             Err(error) => {
-                let start = error.position().map_or(0, |position| position.byte() as usize);
-                errors.push(Diagnostic::new(Code::InputTable, Span::new(start, start), error.to_string()));
+                errors.push(malformed(&error, line(error.position())));
                 continue;
             }
         };
@@ -93,13 +111,24 @@ fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool
                 (None, _) => {}
                 (Some(_), None) => {
                     let message = format!("`{cell}` is no value of type `BOOL`");
-                    errors.push(Diagnostic::new(Code::InputTable, line(&record), message).help("write 0 or 1"));
+                    errors
+                        .push(Diagnostic::new(Code::InputTable, line(record.position()), message).help("write 0 or 1"));
                 }
             }
         }
         rows.push(row);
     }
     if errors.is_empty() { Ok(rows) } else { Err(errors) }
+}
+
+/// A row that is none.
+fn malformed(error: &csv::Error, span: Span) -> Diagnostic {
+    let csv::ErrorKind::UnequalLengths { expected_len, len, .. } = error.kind() else {
+        return Diagnostic::new(Code::InputTable, span, error.to_string());
+    };
+    let message =
+        format!("this row has another number of values ({len}) than the first row has names ({expected_len})");
+    Diagnostic::new(Code::InputTable, span, message).help("give each input one value, separated by commas")
 }
 
 fn truth(cell: &str) -> Option<bool> {

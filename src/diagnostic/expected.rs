@@ -20,11 +20,14 @@ pub fn expected<R: RuleType>(
     let at = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
     };
+    // The end is where the last word ends.
+    let at = if text[at..].trim().is_empty() { at.min(text.trim_end().len()) } else { at };
     let token = first_token(&text[at..]);
     let span = Span::new(start + at, start + at + token.len());
     let found = if token.is_empty() { end.to_owned() } else { format!("`{token}`") };
     let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
-        return Diagnostic::new(code, span, error.variant.message());
+        // The parser's stack is limited, so that no text overflows the program's.
+        return Diagnostic::new(code, Span::new(start + at, start + at), "what stands here is nested too deeply");
     };
     let mut names: Vec<&str> = Vec::new();
     for name in positives.iter().filter_map(|&rule| name(rule)) {
@@ -38,6 +41,20 @@ pub fn expected<R: RuleType>(
         Some((last, others)) => format!("expected {} or {last}, found {found}", others.join(", ")),
     };
     Diagnostic::new(code, span, message)
+}
+
+/// The same for languages whose names are made of plain letters: a letter with an accent is what is wrong, not that the name
+/// ends before it.
+pub fn plain_letters(diagnostic: Diagnostic, (text, start): (&str, usize)) -> Diagnostic {
+    let at = diagnostic.span().start - start;
+    match text[at..].chars().next() {
+        Some(c) if c.is_alphabetic() && !c.is_ascii() => {
+            let span = Span::new(start + at, start + at + c.len_utf8());
+            let message = format!("the letter `{c}` cannot be part of a name");
+            Diagnostic::new(diagnostic.code, span, message).help("names are made of the letters A to Z, digits and `_`")
+        }
+        _ => diagnostic,
+    }
 }
 
 /// The word or the few signs a text begins with; nothing if only white space is left.

@@ -9,7 +9,7 @@ mod render;
 mod suggest;
 
 pub use code::{Code, Severity};
-pub use expected::expected;
+pub use expected::{expected, plain_letters};
 pub use render::{Style, render};
 pub use suggest::nearest;
 
@@ -71,6 +71,13 @@ impl Diagnostic {
             Some(name) => self.help(format!("did you mean `{name}`?")),
             None => self,
         }
+    }
+
+    /// The same for the problem at this position of a list, from 0: nobody reads the hundred-and-first, and to suggest a
+    /// name for each of thousands takes minutes.
+    #[must_use]
+    pub fn suggest_at<'a>(self, position: usize, written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Self {
+        if position < 100 { self.suggest(written, candidates) } else { self }
     }
 
     /// The place the reader is sent to.

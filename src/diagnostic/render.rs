@@ -23,6 +23,12 @@ impl Default for Style {
     }
 }
 
+/// On lines of more than this many bytes only the first label is shown.
+const MAX_LINE: usize = 1000;
+
+/// A word of a message, like a name it quotes, may have this many characters.
+const MAX_WORD: usize = 80;
+
 /// The diagnostic as lines of text, with code, file, line, column, excerpt and help; ends with a newline.
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, source: &Source, style: Style) -> String {
@@ -30,13 +36,28 @@ pub fn render(diagnostic: &Diagnostic, source: &Source, style: Style) -> String 
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let group = level.primary_title(diagnostic.message.as_str()).id(diagnostic.code.id());
+    let group = level.primary_title(shortened(&diagnostic.message)).id(diagnostic.code.id());
     let group = group.element(excerpt(diagnostic, source));
-    let group: Group<'_> = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(help.as_str())));
+    let group: Group<'_> = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(shortened(help))));
     let renderer = if style.colour { Renderer::styled() } else { Renderer::plain() };
     let mut text = renderer.term_width(style.width).render(&[group]);
     text.push('\n');
     text
+}
+
+/// A message with its longest words cut: a name can be as long as a file.
+fn shortened(message: &str) -> String {
+    let mut length = 0;
+    let keep = |c: char| {
+        length = if c.is_whitespace() { 0 } else { length + 1 };
+        match length {
+            _ if c == '`' => Some(c),
+            0..=MAX_WORD => Some(c),
+            _ if length == MAX_WORD + 1 => Some('…'),
+            _ => None,
+        }
+    };
+    message.chars().filter_map(keep).collect()
 }
 
 /// Only the lines the labels touch go to the renderer: it reads all it is given.
@@ -45,11 +66,27 @@ fn excerpt<'a>(diagnostic: &'a Diagnostic, source: &'a Source) -> Snippet<'a, an
     let lines = diagnostic.labels.iter().flat_map(|l| [l.span.start, l.span.end]).map(|o| source.line_of(clamp(o)));
     let first = lines.clone().min().unwrap_or(1).saturating_sub(CONTEXT).max(1);
     let window = source.lines(first, lines.max().unwrap_or(1) + CONTEXT);
-    let annotations = diagnostic.labels.iter().enumerate().map(|(i, label)| {
+    // Between labels that are far apart on one line, the renderer leaves nothing out.
+    let mut starts = diagnostic.labels.iter().map(|label| source.line_of(clamp(label.span.start)));
+    let is_long = starts.any(|line| source.line_text(line).len() > MAX_LINE);
+    let labels = if is_long { 1 } else { diagnostic.labels.len() };
+    let annotations = diagnostic.labels.iter().take(labels).enumerate().map(|(i, label)| {
         let kind = if i == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };
         let start = clamp(label.span.start) - window.start;
         let end = (clamp(label.span.end) - window.start).max(start);
         kind.span(start..end).label((!label.text.is_empty()).then_some(label.text.as_str()))
     });
     Snippet::source(source.slice(window)).path(source.name()).line_start(first).annotations(annotations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_names_are_cut() {
+        assert_eq!(shortened("`a` is not declared"), "`a` is not declared");
+        let long = format!("`{}` and `{}`", "x".repeat(79), "y".repeat(1000));
+        assert_eq!(shortened(&long), format!("`{}` and `{}…`", "x".repeat(79), "y".repeat(79)));
+    }
 }

@@ -1,17 +1,26 @@
 //! The nearest of the names that exist, for "did you mean …?".
 
+/// Candidates that are looked at.
+const MAX_CANDIDATES: usize = 10_000;
+
 /// The candidate closest to `written`, if it is close enough to be a slip of the pen: at most one edit (insertion,
-/// deletion, replacement, swap) in three letters, and never all of them. Case does not count.
+/// deletion, replacement, swap) in three letters, and never all of them. Case does not count. Of several that are as close,
+/// the first one that begins with the same letter is taken, else the first one.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let written = written.to_lowercase();
     let letters = written.chars().count();
     let allowed = letters.div_ceil(3).min(letters.saturating_sub(1));
-    candidates
-        .into_iter()
-        .map(|name| (strsim::damerau_levenshtein(&written, &name.to_lowercase()), name))
-        .filter(|&(distance, _)| distance <= allowed)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, name)| name)
+    let near = candidates.into_iter().take(MAX_CANDIDATES).filter_map(|name| {
+        let candidate = name.to_lowercase();
+        // The distance is at least the difference in length, which costs nothing.
+        if candidate.chars().count().abs_diff(letters) > allowed {
+            return None;
+        }
+        let distance = strsim::damerau_levenshtein(&written, &candidate);
+        let begins_otherwise = candidate.chars().next() != written.chars().next();
+        (distance <= allowed).then_some((distance, begins_otherwise, name))
+    });
+    near.min_by_key(|&(distance, begins_otherwise, _)| (distance, begins_otherwise)).map(|(_, _, name)| name)
 }
 
 #[cfg(test)]
@@ -25,5 +34,6 @@ mod tests {
         assert_eq!(nearest("step1", names), Some("Step_1"));
         assert_eq!(nearest("S3", names), Some("S1"));
         assert_eq!(nearest("Pressure", names), None);
+        assert_eq!(nearest("ADN", ["LDN", "AND"]), Some("AND"));
     }
 }

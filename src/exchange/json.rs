@@ -87,11 +87,12 @@ fn answer(system: &System, answer: &Answer, view: View) -> Value {
 }
 
 fn trace(system: &System, witness: &Witness) -> Value {
-    let mut document = match &witness.trace {
-        Trace::Scans(trace) => scans(system, trace),
-        Trace::Firings(trace) => firings(system, trace),
+    // States of the scan view are the ends of scans, which count from 1; before the first firing there is a state 0.
+    let (mut document, from) = match &witness.trace {
+        Trace::Scans(trace) => (scans(system, trace), 1),
+        Trace::Firings(trace) => (firings(system, trace), 0),
     };
-    let notes = witness.notes.iter().map(|n| json!({ "first": n.first, "last": n.last, "text": n.text }));
+    let notes = witness.notes.iter().map(|n| json!({ "first": n.first + from, "last": n.last + from, "text": n.text }));
     document["notes"] = notes.collect();
     document
 }

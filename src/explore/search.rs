@@ -20,6 +20,8 @@ const ALONE: usize = 64;
 /// Explores a space until everything is found, the budget is used up, or `watch` gives a reason to stop. `watch` is called
 /// before each batch, and once at the end.
 pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Graph {
+    // Numbers of states and rows have 32 bits; half of that leaves room for a batch.
+    let budget = Budget { states: budget.states.min(u64::from(u32::MAX) >> 1), ..budget };
     let mut search = Search { space, budget, graph: empty(space.words()), kernels: None };
     search.kernels = space.relevant().map(|_| Store::new(space.words()));
     search.graph.stop = search.run(watch);
@@ -143,8 +145,7 @@ impl Search<'_> {
     }
 
     fn exhausted(&self) -> Option<Stop> {
-        // Numbers of states and rows have 32 bits; half of that leaves room for a batch.
-        let states = self.budget.states.min(u64::from(u32::MAX) >> 1);
+        let states = self.budget.states;
         if self.bytes() > self.budget.bytes {
             Some(Stop::Bytes(self.budget.bytes))
         } else {

@@ -61,3 +61,34 @@ fn hash(state: &[u64]) -> u64 {
     state.iter().for_each(|&word| hasher.write_u64(word));
     hasher.finish()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_state_has_one_number() {
+        let mut store = Store::new(3);
+        let state = |i: u64| [i % 7, i.wrapping_mul(0x9E37_79B9_7F4A_7C15), i / 7];
+        for i in 0..5000 {
+            assert_eq!(store.insert(&state(i)), (i as u32, true));
+        }
+        for i in (0..5000).rev() {
+            assert_eq!(store.insert(&state(i)), (i as u32, false), "the number does not change");
+            assert_eq!(store.get(i as u32), state(i));
+        }
+        assert_eq!(store.len(), 5000);
+        assert!(store.bytes() >= 5000 * 3 * 8);
+    }
+
+    #[test]
+    fn states_that_differ_in_any_bit_are_different() {
+        let mut store = Store::new(2);
+        assert_eq!(store.insert(&[0, 0]), (0, true));
+        for bit in 0..128_usize {
+            let mut state = [0_u64; 2];
+            state[bit / 64] |= 1 << (bit % 64);
+            assert_eq!(store.insert(&state), (bit as u32 + 1, true));
+        }
+    }
+}

@@ -19,7 +19,7 @@ impl FlatProgram {
             let Some(written) = written else { continue };
             match self.code.get(line) {
                 Some(code) => {
-                    carried.extend(reads(code.instruction).map(|id| id.0).filter(|&id| !written.contains(id)))
+                    carried.extend(reads(code.instruction).map(|id| id.0).filter(|&id| !written.contains(id)));
                 }
                 None => carried.extend((0..variables).filter(|&id| !written.contains(id))),
             }

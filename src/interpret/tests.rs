@@ -97,3 +97,18 @@ fn a_loop_ends_or_is_found_out() {
     assert_eq!(Machine::new(&endless).scan(), Err(Fault::Endless));
     assert_eq!(Machine::new(&program("on: JMP on")).scan(), Err(Fault::Endless));
 }
+
+/// A counter of 30 bits takes a thousand million rounds to come to its end: no state repeats, and nobody waits.
+#[test]
+fn a_loop_that_ends_too_late_is_given_up() {
+    let bits: Vec<String> = (0..30).map(|i| format!("b{i}")).collect();
+    // The lowest bit that is 0 becomes 1, those below it become 0.
+    let count: String = bits.iter().map(|b| format!("LD {b}\nSTN {b}\nJMPCN on\n")).collect();
+    let text = format!(
+        "PROGRAM p VAR {} : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\non:\n{count}LD TRUE\nST q\nEND_PROGRAM",
+        bits.join(", ")
+    );
+    let (unit, _) = parse(&Source::new("test", text));
+    let program = flatten(&check(&unit, true).0.unwrap());
+    assert_eq!(Machine::new(&program).scan(), Err(Fault::TooLong));
+}

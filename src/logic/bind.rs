@@ -91,7 +91,11 @@ impl Binder<'_> {
             }
             Expression::Number(_) | Expression::Sum(..) | Expression::Difference(..) | Expression::Product(..) => {
                 let message = "this is a number, where something true or false is needed";
-                let help = "compare it with something, like `… = 1`";
+                let help = match &formula.expression {
+                    Expression::Number(0) => "write `FALSE`",
+                    Expression::Number(1) => "write `TRUE`",
+                    _ => "compare it with something, like `… = 1`",
+                };
                 self.error(Diagnostic::new(Code::RequirementTypes, formula.span, message).help(help))
             }
         }
@@ -128,11 +132,12 @@ impl Binder<'_> {
     }
 
     fn variable(&mut self, name: &str, span: Span) -> Bound {
-        let program = &self.system.program;
+        let system = self.system;
+        let program = &system.program;
         let Some(variable) = program.find(name) else {
             let message = format!("the program `{}` has no variable `{name}`", program.name);
             let names = program.declared().map(|id| program.variable(id).name.as_str());
-            return self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names));
+            return self.unknown(message, span, name, names);
         };
         match self.view {
             View::Scan => Bound::Variable(variable),
@@ -166,29 +171,43 @@ impl Binder<'_> {
     }
 
     fn marked(&mut self, name: &str, span: Span) -> Bound {
-        let net = &self.system.net;
+        let system = self.system;
+        let net = &system.net;
         match (self.view, net.find_place(name)) {
             (View::Scan, _) => self.only_in_transition_view("a place of the net", span),
             (View::Transition, Some(place)) => Bound::Marked(place),
             (View::Transition, None) => {
                 let names = net.places().iter().map(|place| place.name.as_str());
                 let message = format!("the net has no place `{name}`");
-                self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names))
+                self.unknown(message, span, name, names)
             }
         }
     }
 
     fn enabled(&mut self, name: &str, span: Span) -> Bound {
-        let net = &self.system.net;
+        let system = self.system;
+        let net = &system.net;
         match (self.view, net.find_transition(name)) {
             (View::Scan, _) => self.only_in_transition_view("a transition of the net", span),
             (View::Transition, Some(transition)) => Bound::Enabled(transition),
             (View::Transition, None) => {
                 let names = net.transitions().iter().map(|transition| transition.name.as_str());
                 let message = format!("the net has no transition `{name}`");
-                self.error(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names))
+                self.unknown(message, span, name, names)
             }
         }
+    }
+
+    /// Reports a name that means nothing, with the nearest of those that do.
+    fn unknown<'n>(
+        &mut self,
+        message: String,
+        span: Span,
+        written: &str,
+        names: impl Iterator<Item = &'n str>,
+    ) -> Bound {
+        let diagnostic = Diagnostic::new(Code::RequirementNameUnknown, span, message);
+        self.error(diagnostic.suggest_at(self.errors.len(), written, names))
     }
 
     fn only_in_transition_view(&mut self, what: &str, span: Span) -> Bound {

@@ -170,9 +170,9 @@ impl Explainer<'_> {
                 let follow_g = !self.is_local(g) && (self.is_local(f) || self.cost(g)[s] > self.cost(f)[s]);
                 let (followed, other) = if follow_g { (g, f) } else { (f, g) };
                 if self.is_local(other) {
-                    self.explain(other, state)
+                    self.explain(other, state);
                 } else {
-                    self.claim(other)
+                    self.claim(other);
                 }
                 self.explain(followed, state);
             }

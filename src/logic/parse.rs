@@ -42,7 +42,11 @@ pub struct Requirement {
 /// What keeps the text from being a formula.
 pub fn parse_formula(name: &str, source: &Source) -> Result<Requirement, Diagnostic> {
     let text = source.text();
-    let pairs = RequirementParser::parse(Rule::lone_formula, text).map_err(|error| diagnostic(&error, text, 0))?;
+    let pairs = RequirementParser::parse(Rule::lone_formula, text).map_err(|error| {
+        let diagnostic = diagnostic(&error, text, 0);
+        let help = "a formula is like `AG (a & !b -> c)`";
+        if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
+    })?;
     let mut formulas = pairs.flatten().filter(|pair| pair.as_rule() == Rule::formula);
     let Some(pair) = formulas.next() else {
         return Err(Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"));
@@ -71,7 +75,8 @@ pub fn parse_requirements(source: &Source) -> (Vec<Requirement>, Vec<Diagnostic>
                         let message = format!("there are two requirements named `{}`", requirement.name);
                         diagnostics.push(
                             Diagnostic::new(Code::RequirementNameTwice, requirement.span, message)
-                                .also(first, "the first is here"),
+                                .also(first, "the first is here")
+                                .help("give each a name of its own"),
                         );
                     }
                     requirements.push(requirement);
@@ -210,6 +215,7 @@ fn until(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
         match piece.as_rule() {
             Rule::quantifier => all = quantifier(piece.as_str().as_bytes()[0]),
             Rule::until_operator => weak = piece.as_str() == "W",
+            Rule::close_until => {}
             _ => formulas.push(formula(piece.into_inner())?),
         }
     }
@@ -249,13 +255,23 @@ fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
     let (text, start) = (pair.as_str(), pair.as_span().start());
     let help = "write it like `requirement name \"what it says\": AG (a -> b);`";
     match RequirementParser::parse(Rule::lone_requirement, text) {
-        Err(error) => diagnostic(&error, text, start).help(help),
+        Err(error) => {
+            let diagnostic = diagnostic(&error, text, start);
+            if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
+        }
         Ok(_) => Diagnostic::new(Code::RequirementSyntax, span(pair), "this cannot stand here").help(help),
     }
 }
 
 fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
-    diagnostic::expected(error, (text, start), Code::RequirementSyntax, "the end", name)
+    let diagnostic = diagnostic::expected(error, (text, start), Code::RequirementSyntax, "the end", name);
+    let at = diagnostic.span().start - start;
+    if text[at..].starts_with("(*") {
+        let span = Span::new(start + at, start + at + 2);
+        return Diagnostic::new(Code::RequirementSyntax, span, "this comment is never closed")
+            .help("close it with `*)`");
+    }
+    diagnostic::plain_letters(diagnostic, (text, start))
 }
 
 fn name(rule: Rule) -> Option<&'static str> {
@@ -269,6 +285,8 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::formula | Rule::name | Rule::group | Rule::number => "a formula",
         Rule::and | Rule::implies | Rule::equal | Rule::plus => "an operator",
         Rule::until_operator => "`U` or `W`",
+        Rule::close_group => "`)`",
+        Rule::close_until => "`]`",
         Rule::line => "a line number",
         Rule::spot => "`line`, `idle` or `End`",
         _ => return None,

@@ -3,6 +3,7 @@
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
 use super::formula::{Comparison, Quantifier};
+use crate::semantics::Role;
 use crate::translate::{PlaceRole, System};
 
 /// Binding strengths, weakest first.
@@ -27,15 +28,18 @@ impl Bound {
 
     /// The text, in parentheses if it binds more weakly than what stands around it.
     fn set(&self, system: &System, around: Strength) -> String {
-        let two = |f: &Self, sign: &str, g: &Self, strength: Strength, tighter: Strength| {
-            let text = format!("{} {sign} {}", f.set(system, tighter), g.set(system, strength));
+        // Each operand with what it must bind at least as strongly as: all but `->` take their operands from the left.
+        let two = |(f, left): (&Self, Strength), sign: &str, (g, right): (&Self, Strength), strength: Strength| {
+            let text = format!("{} {sign} {}", f.set(system, left), g.set(system, right));
             parenthesise(text, strength < around)
         };
         match self {
             Self::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
             Self::Variable(variable) => system.program.variable(*variable).name.clone(),
             Self::Marked(place) => match system.places[place.index()] {
-                PlaceRole::Bit { variable, value: true } => system.program.variable(variable).name.clone(),
+                PlaceRole::Bit { variable, value: true } if system.program.variable(variable).role != Role::Buffer => {
+                    system.program.variable(variable).name.clone()
+                }
                 PlaceRole::Line(line) if line == system.program.end() => "at End".to_owned(),
                 PlaceRole::Line(line) => format!("at line {}", line + 1),
                 PlaceRole::Idle => "at idle".to_owned(),
@@ -55,10 +59,10 @@ impl Bound {
                 parenthesise(format!("{} {sign} {}", sides.0, sides.1), Strength::Compare < around)
             }
             Self::Not(f) => format!("!{}", f.set(system, Strength::Prefix)),
-            Self::And(f, g) => two(f, "&", g, Strength::And, Strength::And),
-            Self::Or(f, g) => two(f, "|", g, Strength::Or, Strength::Or),
-            Self::Implies(f, g) => two(f, "->", g, Strength::Implies, Strength::Or),
-            Self::Iff(f, g) => two(f, "<->", g, Strength::Iff, Strength::Implies),
+            Self::And(f, g) => two((f, Strength::And), "&", (g, Strength::Compare), Strength::And),
+            Self::Or(f, g) => two((f, Strength::Or), "|", (g, Strength::And), Strength::Or),
+            Self::Implies(f, g) => two((f, Strength::Or), "->", (g, Strength::Implies), Strength::Implies),
+            Self::Iff(f, g) => two((f, Strength::Iff), "<->", (g, Strength::Implies), Strength::Iff),
             Self::Next(quantifier, f) => format!("{}X {}", letter(*quantifier), f.set(system, Strength::Prefix)),
             Self::Until { quantifier, weak, hold, release } => match (weak, &**hold, &**release) {
                 (false, Self::Truth(true), f) => {

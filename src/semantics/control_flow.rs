@@ -46,6 +46,16 @@ pub fn graph(body: &[Instruction]) -> ControlFlow {
     graph
 }
 
+/// Whether the graph tells where control really goes: every line can be read, and every jump has its label.
+pub fn is_known(body: &[Instruction]) -> bool {
+    let labels = labels(body);
+    body.iter().all(|instruction| match &instruction.operation {
+        Some(Operation::Jump { target, .. }) => labels.contains_key(&target.key()),
+        Some(Operation::Broken) => false,
+        _ => true,
+    })
+}
+
 /// Which nodes control can come to, as one flag per node.
 pub fn reachable(graph: &ControlFlow) -> Vec<bool> {
     let mut reachable = vec![false; graph.node_count()];

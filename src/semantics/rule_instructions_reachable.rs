@@ -8,15 +8,18 @@ use crate::diagnostic::{Code, Diagnostic};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let body = &context.pou.body;
+    if !control_flow::is_known(body) {
+        return Vec::new();
+    }
     let reachable = control_flow::reachable(&control_flow::graph(body));
     let mut found = Vec::new();
     let mut i = 0;
     while i < body.len() {
         let run = reachable[i..body.len()].iter().take_while(|&&reachable| !reachable).count();
         if run > 0 {
-            let message = match run {
-                1 => "this instruction can never be executed".to_owned(),
-                _ => format!("these {run} instructions can never be executed"),
+            let message = match body[i..i + run].iter().filter(|instruction| instruction.operation.is_some()).count() {
+                0 | 1 => "this instruction can never be executed".to_owned(),
+                n => format!("these {n} instructions can never be executed"),
             };
             found.push(Diagnostic::new(Code::InstructionUnreachable, body[i].span.to(body[i + run - 1].span), message));
         }

@@ -1,7 +1,10 @@
-//! Every jump goes to a label of the same instruction list, outside parentheses.
+//! Every jump goes to a label of the same instruction list, outside parentheses. A label that does not exist is reported at
+//! the first jump to it.
 //!
 //! Passes: `JMP on` … `on: LD a`.
 //! Fails: `JMP off` where there is no `off:`.
+
+use std::collections::BTreeSet;
 
 use super::{Context, control_flow};
 use crate::diagnostic::{Code, Diagnostic};
@@ -15,11 +18,13 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
         Some(Operation::Jump { target, .. }) => Some(target),
         _ => None,
     });
+    let mut reported = BTreeSet::new();
     jumps
-        .filter(|target| !labels.contains_key(&target.key()))
-        .map(|target| {
+        .filter(|target| !labels.contains_key(&target.key()) && reported.insert(target.key()))
+        .enumerate()
+        .map(|(i, target)| {
             let message = format!("there is no label `{}` to jump to", target.text);
-            Diagnostic::new(Code::LabelNotDefined, target.span, message).suggest(&target.text, spellings())
+            Diagnostic::new(Code::LabelNotDefined, target.span, message).suggest_at(i, &target.text, spellings())
         })
         .collect()
 }
@@ -33,6 +38,11 @@ mod tests {
     fn a_jump_needs_its_label() {
         let text = program("LD i\nJMPC on\nJMP of\nON: ST q\noff:");
         assert_eq!(lines(Code::LabelNotDefined, &text), [4]);
+    }
+
+    #[test]
+    fn a_label_is_missed_once() {
+        assert_eq!(lines(Code::LabelNotDefined, &program("LD i\nJMPC on\nJMPC ON\nJMP off")), [3, 5]);
     }
 
     #[test]

@@ -5,12 +5,15 @@
 
 use std::collections::BTreeSet;
 
-use super::Context;
+use super::{Context, control_flow};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Operation, with_nested};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let body = &context.pou.body;
+    if !control_flow::is_known(body) {
+        return Vec::new();
+    }
     let used: BTreeSet<String> = with_nested(body)
         .filter_map(|(instruction, _)| match &instruction.operation {
             Some(Operation::Jump { target, .. }) => Some(target.key()),
@@ -36,5 +39,14 @@ mod tests {
     fn a_label_without_jump_is_doubtful() {
         let text = program("a: LD i\nJMPC B\nb: ST q");
         assert_eq!(lines(Code::LabelNotUsed, &text), [2]);
+    }
+
+    #[test]
+    fn nothing_is_doubted_while_a_jump_has_no_label() {
+        let text = program("LD i\nJMP en\nend: ST q");
+        assert_eq!(lines(Code::LabelNotUsed, &text), [0; 0]);
+        assert_eq!(lines(Code::InstructionUnreachable, &text), [0; 0]);
+        let text = program("LD i\nJMP end!\nend: ST q");
+        assert_eq!(lines(Code::LabelNotUsed, &text), [0; 0]);
     }
 }

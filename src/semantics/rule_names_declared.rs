@@ -1,7 +1,9 @@
-//! Every variable that is used is declared.
+//! Every variable that is used is declared. A name that is not is reported where it is used first.
 //!
 //! Passes: `LD a` where `a` is declared, however it is spelt.
 //! Fails: `LD b` where it is not; `LD a.Q` and `LD a[1]`, since there is no type with parts; `LD %IX0.0`.
+
+use std::collections::BTreeMap;
 
 use super::Context;
 use crate::diagnostic::{Code, Diagnostic};
@@ -10,21 +12,28 @@ use crate::syntax::ast::{Name, Operand, Operation, with_nested};
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let operations = with_nested(&context.pou.body).filter_map(|(instruction, _)| instruction.operation.as_ref());
     let operands = operations.flat_map(|operation| match operation {
-        Operation::Simple { operands, .. } => operands.iter().collect(),
-        Operation::Parenthesis { first, .. } => first.iter().collect(),
+        // Of an operator that is not supported it is enough to say so.
+        Operation::Simple { operator, operands } if operator.verb.is_boolean() => operands.iter().collect(),
+        Operation::Parenthesis { operator, first, .. } if operator.verb.is_boolean() => first.iter().collect(),
         _ => Vec::new(),
     });
     let names = operands.filter_map(|operand| match operand {
         Operand::Variable(name) => Some(name),
         Operand::Constant(_) => None,
     });
-    names.filter_map(|name| undeclared(name, context)).collect()
+    let unknown = names.filter(|name| context.symbols.find(&name.text).is_none());
+    let mut uses: BTreeMap<String, (&Name, usize)> = BTreeMap::new();
+    unknown.for_each(|name| uses.entry(name.key()).or_insert((name, 0)).1 += 1);
+    let mut firsts: Vec<(&Name, usize)> = uses.into_values().collect();
+    firsts.sort_by_key(|(name, _)| name.span);
+    let found = firsts.into_iter().enumerate().filter_map(|(i, (name, uses))| {
+        let diagnostic = undeclared(name, i, context)?;
+        Some(if uses > 1 { diagnostic.here(format!("the first of {uses} uses")) } else { diagnostic })
+    });
+    found.collect()
 }
 
-fn undeclared(name: &Name, context: &Context<'_>) -> Option<Diagnostic> {
-    if context.symbols.find(&name.text).is_some() {
-        return None;
-    }
+fn undeclared(name: &Name, position: usize, context: &Context<'_>) -> Option<Diagnostic> {
     if name.text.starts_with('%') {
         let message = format!("the address `{}` is not supported", name.text);
         let help = "declare a variable for it in `VAR_INPUT`, `VAR_OUTPUT` or `VAR`";
@@ -34,11 +43,12 @@ fn undeclared(name: &Name, context: &Context<'_>) -> Option<Diagnostic> {
     if let Some((_, symbol)) = context.symbols.find(base) {
         // Of a type that is not supported nothing can be said.
         symbol.role?;
-        let message = format!("`{base}` has no parts, so there is no `{}`", name.text);
+        let message = format!("`{base}` is of type `BOOL` and has no parts, so there is no `{}`", name.text);
         return Some(Diagnostic::new(Code::OperandUnfit, name.span, message));
     }
     let message = format!("`{}` is not declared", name.text);
-    Some(Diagnostic::new(Code::NameNotDeclared, name.span, message).suggest(&name.text, context.symbols.names()))
+    let diagnostic = Diagnostic::new(Code::NameNotDeclared, name.span, message);
+    Some(diagnostic.suggest_at(position, &name.text, context.symbols.names()))
 }
 
 #[cfg(test)]
@@ -50,6 +60,12 @@ mod tests {
     fn unknown_names_are_reported_wherever_they_stand() {
         let text = program("LD x\nAND( y\nOR I\nOR( z\n)\n)\nST Q");
         assert_eq!(lines(Code::NameNotDeclared, &text), [2, 3, 5]);
+    }
+
+    #[test]
+    fn a_name_is_reported_once() {
+        let text = program("LD x\nAND y\nOR X\nST y\nS x");
+        assert_eq!(lines(Code::NameNotDeclared, &text), [2, 3]);
     }
 
     #[test]

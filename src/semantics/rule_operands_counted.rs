@@ -19,7 +19,8 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
             let count = |span, message: String| Diagnostic::new(Code::OperandCount, span, message);
             match operands.get(takes) {
                 None if operands.len() < takes => {
-                    Some(count(instruction.span, format!("`{operator}` needs an operand")))
+                    let help = format!("write it behind the operator, like `{operator} a`");
+                    Some(count(instruction.span, format!("`{operator}` needs an operand")).help(help))
                 }
                 None => None,
                 Some(first) if takes == 0 => Some(

@@ -8,8 +8,9 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Instruction, Operation, Verb, with_nested};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
-    let instructions = with_nested(&context.pou.body);
-    instructions
+    // Of parentheses that begin with one another, the outermost is reported: `AND(AND(AND(` is one mistake.
+    let mut reported: Option<&Instruction> = None;
+    with_nested(&context.pou.body)
         .filter_map(|(instruction, _)| {
             let Some(Operation::Parenthesis { operator, first: None, body, close }) = &instruction.operation else {
                 return None;
@@ -23,6 +24,9 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
                 None => Some(unvalued(*close, "this parenthesis is empty".to_owned())),
                 Some(first) if begins_with_value(first) => None,
                 Some(first) => {
+                    if reported.replace(first).is_some_and(|outer| std::ptr::eq(outer, instruction)) {
+                        return None;
+                    }
                     let message = "the parenthesis has no value yet when this instruction uses it";
                     Some(unvalued(first.span, message.to_owned()))
                 }
@@ -49,5 +53,11 @@ mod tests {
     fn a_parenthesis_needs_a_first_value() {
         let text = program("LD i\nAND( j\n)\nAND(\nLDN j\n)\nAND(\nOR j\n)\nAND(\n)\nAND(\nAND( j\n)\n)\nST q");
         assert_eq!(lines(Code::ParenthesisWithoutValue, &text), [9, 12, 14]);
+    }
+
+    #[test]
+    fn a_chain_of_parentheses_is_one_mistake() {
+        let text = program("LD i\nAND(\nAND(\nAND(\nOR( j\n)\n)\n)\nAND(\nOR m\n)\n)\nST q");
+        assert_eq!(lines(Code::ParenthesisWithoutValue, &text), [4, 11]);
     }
 }

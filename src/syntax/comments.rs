@@ -16,8 +16,14 @@ pub fn blank(source: &Source) -> (String, Option<Diagnostic>) {
         let end = match &bytes[at..] {
             [b'(', b'*', ..] => block_end(bytes, at).unwrap_or_else(|| {
                 let span = Span::new(at, at + 2);
+                let holds_another = bytes[at + 2..].windows(2).any(|pair| pair == b"(*");
+                let help = if holds_another {
+                    "close it with `*)`; comments nest, so each `(*` inside it needs its own"
+                } else {
+                    "close it with `*)`"
+                };
                 let message = "this comment is never closed";
-                unclosed = Some(Diagnostic::new(Code::CommentNotClosed, span, message).help("close it with `*)`"));
+                unclosed = Some(Diagnostic::new(Code::CommentNotClosed, span, message).help(help));
                 bytes.len()
             }),
             [b'/', b'/', ..] => line_end(bytes, at),
@@ -59,7 +65,7 @@ fn block_end(bytes: &[u8], start: usize) -> Option<usize> {
 }
 
 fn line_end(bytes: &[u8], start: usize) -> usize {
-    bytes[start..].iter().position(|&b| b == b'\n').map_or(bytes.len(), |n| start + n)
+    bytes[start..].iter().position(|b| b"\r\n".contains(b)).map_or(bytes.len(), |n| start + n)
 }
 
 #[cfg(test)]
@@ -79,6 +85,7 @@ mod tests {
         assert_eq!(blanked("a(*\n*)b"), "a     b");
         assert_eq!(blanked("(*)*)x"), "     x", "the star of `(*` does not close it");
         assert_eq!(blanked("LD a // last"), "LD a        ");
+        assert_eq!(blanked("// a\rb // c\r\n"), "    \rb     \r\n");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! pest's pairs to the syntax tree: units and declarations. The instruction list is in [`instructions`].
 
 mod instructions;
+mod other_language;
 
 use pest::iterators::Pair;
 
@@ -56,7 +57,11 @@ fn pou(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou> {
         match piece.as_rule() {
             Rule::identifier => pou_name = name(&piece),
             Rule::result_type => result = Some(name(&piece)),
-            _ => diagnostics.push(expected::explain(Rule::lone_head, whole_head.as_str(), kind_word.span.start)),
+            _ => {
+                let explained = expected::explain(Rule::lone_head, whole_head.as_str(), kind_word.span.start);
+                let help = format!("it begins like `{kind} name`");
+                diagnostics.push(if explained.help.is_empty() { explained.help(help) } else { explained });
+            }
         }
     }
     let mut pou = Pou { kind, name: pou_name, result, blocks: Vec::new(), body: Vec::new() };
@@ -85,7 +90,8 @@ fn pou(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou> {
             _ => {}
         }
     }
-    if !ended {
+    let is_begun = !(pou.name.text.is_empty() && pou.blocks.is_empty() && pou.body.is_empty());
+    if !ended && is_begun {
         let message = format!("this `{kind}` has no end");
         diagnostics.push(
             Diagnostic::new(Code::EndMissing, kind_word.span, message)
@@ -142,7 +148,7 @@ fn declaration(pair: Pair<'_, Rule>) -> Declaration {
     let mut declaration = Declaration { names: Vec::new(), location: None, type_text: None, initial: None };
     for piece in pair.into_inner() {
         match piece.as_rule() {
-            Rule::identifier => declaration.names.push(name(&piece)),
+            Rule::declared => declaration.names.push(name(&piece)),
             Rule::location => declaration.location = piece.into_inner().next().map(|address| name(&address)),
             Rule::type_text => declaration.type_text = Some(name(&piece)),
             Rule::initial => declaration.initial = Some(constant(piece)),
@@ -155,10 +161,16 @@ fn declaration(pair: Pair<'_, Rule>) -> Declaration {
 /// Keeps the names of a declaration that cannot be read, so that their uses are not reported as well.
 fn bad_declaration(pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Declaration {
     let start = pair.as_span().start();
-    diagnostics.push(expected::explain(Rule::lone_declaration, pair.as_str(), start));
+    let explained = expected::explain(Rule::lone_declaration, pair.as_str(), start);
+    let help = "a declaration is like `a, b : BOOL := TRUE;`";
+    diagnostics.push(if explained.help.is_empty() { explained.help(help) } else { explained });
     let listed = pair.as_str().split([':', ';']).next().unwrap_or_default();
-    let names = listed.split([',', ' ', '\t']).filter(|word| !word.is_empty());
-    let names = names.map(|word| Name { text: word.to_owned(), span: span(pair) }).collect();
+    let words = listed.split([',', ' ', '\t']).scan(start, |at, word| {
+        let span = Span::new(*at, *at + word.len());
+        *at = span.end + 1;
+        Some(Name { text: word.to_owned(), span })
+    });
+    let names = words.filter(|name| !name.text.is_empty()).collect();
     Declaration { names, location: None, type_text: None, initial: None }
 }
 

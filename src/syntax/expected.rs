@@ -18,13 +18,14 @@ pub fn explain(rule: Rule, text: &str, start: usize) -> Diagnostic {
 
 /// A pest error as a diagnostic.
 pub fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
-    diagnostic::expected(error, (text, start), Code::Syntax, "the end of the line", name)
+    let diagnostic = diagnostic::expected(error, (text, start), Code::Syntax, "the end of the line", name);
+    diagnostic::plain_letters(diagnostic, (text, start))
 }
 
 fn name(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI | Rule::eol => "the end of the line",
-        Rule::identifier => "a name",
+        Rule::identifier | Rule::declared => "a name",
         Rule::operand | Rule::constant | Rule::variable | Rule::symbolic_variable => "an operand",
         Rule::operator | Rule::expr_operator | Rule::instruction => "an instruction",
         Rule::label => "a label",

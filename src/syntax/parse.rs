@@ -5,7 +5,7 @@ use pest_derive::Parser;
 
 use super::ast::Unit;
 use super::{comments, consume, expected};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::source::{Source, Span};
 
 #[derive(Parser)]
@@ -16,7 +16,11 @@ pub(super) struct IlParser;
 #[must_use]
 pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     let (text, unclosed) = comments::blank(source);
-    let mut diagnostics: Vec<Diagnostic> = unclosed.into_iter().collect();
+    if let Some(unclosed) = unclosed {
+        // What an open comment hides is missing everywhere: no more than its opening is worth telling.
+        return (Unit::default(), vec![unclosed]);
+    }
+    let mut diagnostics = Vec::new();
     let unit = match IlParser::parse(Rule::unit, &text) {
         Ok(mut pairs) => pairs.next().map(|pair| consume::unit(pair, &mut diagnostics)).unwrap_or_default(),
         // The grammar reads any text, so this is a limit of the parser itself.
@@ -25,7 +29,7 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
             Unit::default()
         }
     };
-    if unit.pous.is_empty() && diagnostics.is_empty() {
+    if unit.pous.is_empty() && !any_error(&diagnostics) {
         let end = source.text().trim_end().len();
         diagnostics.push(
             Diagnostic::new(Code::NothingToCheck, Span::new(end, end), "this file holds no program")
@@ -34,4 +38,16 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     }
     diagnostics.sort_by_key(Diagnostic::span);
     (unit, diagnostics)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_open_comment_is_one_mistake() {
+        let (_, diagnostics) = parse(&Source::new("x", "PROGRAM p\nLD = 3\nJMP on (* \non: LD a\nEND_PROGRAM"));
+        let codes: Vec<Code> = diagnostics.iter().map(|diagnostic| diagnostic.code).collect();
+        assert_eq!(codes, [Code::CommentNotClosed]);
+    }
 }

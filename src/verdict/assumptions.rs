@@ -10,12 +10,19 @@ pub fn assumptions(system: &System, fair: bool) -> Vec<String> {
         |ids: Vec<VarId>| ids.iter().map(|&id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ");
     let mut assumptions = vec!["the PLC starts cold: every variable has its initial value".to_owned()];
     for (i, component) in system.plant.components.iter().enumerate() {
-        let driven = program.with_role(Role::Input).filter(|&id| system.plant.driver(id) == Some(i)).collect();
-        let device = match names(driven) {
-            driven if driven.is_empty() => format!("`{}`", component.name),
-            driven => format!("`{}` gives {driven} their values and", component.name),
+        let driven: Vec<VarId> =
+            program.with_role(Role::Input).filter(|&id| system.plant.driver(id) == Some(i)).collect();
+        let gives = match driven.len() {
+            0 if component.transitions.is_empty() => continue,
+            0 => String::new(),
+            1 => format!("gives {} its value and ", names(driven)),
+            _ => format!("gives {} their values and ", names(driven)),
         };
-        assumptions.push(format!("{device} moves any number of times between two scans, or not at all"));
+        let moves = match component.transitions.is_empty() {
+            true => "never moves",
+            false => "moves any number of times between two scans, or not at all",
+        };
+        assumptions.push(format!("`{}` {gives}{moves}", component.name));
     }
     let free = names(system.free_inputs().collect());
     if !free.is_empty() {

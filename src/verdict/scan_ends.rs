@@ -37,7 +37,10 @@ pub fn formula(system: &System) -> Bound {
 
 /// The check in the scan view: the search has met every scan there is.
 pub fn on_scans(system: &System, graph: &Graph) -> Outcome {
-    let Some(&(state, failure)) = graph.failures().first() else {
+    // A scan that never ends says more than one nobody waited for.
+    let endless = |(_, failure): &&(Option<u32>, Failure)| *failure == Failure::Scan(Fault::Endless);
+    let failures = graph.failures();
+    let Some(&(state, failure)) = failures.iter().find(endless).or(failures.first()) else {
         return if graph.is_complete() {
             Outcome::Holds { vacuous: None, witness: None }
         } else {

@@ -110,7 +110,14 @@ pub fn replay_scans(
         at_end(position, &replay).map_err(in_scan)?;
         replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
     }
-    Ok(())
+    // Both ends have been compared with the net, so they are the same if they say the same.
+    let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
+    match trace.loop_start {
+        Some(start) if start + 1 >= trace.scans.len() || end(start) != end(trace.scans.len() - 1) => {
+            Err(Disagreement("the lasso does not close".to_owned()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The search's end state against the net's.

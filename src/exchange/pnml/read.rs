@@ -43,15 +43,17 @@ fn malformed(error: &roxmltree::Error, source: &Source) -> Diagnostic {
     let at = match error {
         // These have no position of their own.
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => source.text().trim_end().len(),
-        _ => offset(source, error.pos()),
+        Error::DtdDetected => source.text().find("<!DOCTYPE").unwrap_or(0),
+        _ => offset(source, error.pos()).min(source.text().trim_end().len()),
     };
+    if matches!(error, Error::DtdDetected) {
+        let span = Span::new(at, at + "<!DOCTYPE".len());
+        let diagnostic = Diagnostic::new(Code::NetSyntax, span, "a document type declaration is not part of PNML");
+        return diagnostic.help("remove the `<!DOCTYPE …>` with all its entities");
+    }
     let text = error.to_string();
     let text = text.replace(&format!(" at {}", error.pos()), "");
-    let diagnostic = Diagnostic::new(Code::NetSyntax, Span::new(at, at), format!("this is no well-formed XML: {text}"));
-    match error {
-        Error::DtdDetected => diagnostic.help("remove the `<!DOCTYPE …>`: PNML has none"),
-        _ => diagnostic,
-    }
+    Diagnostic::new(Code::NetSyntax, Span::new(at, at), format!("this is no well-formed XML: {text}"))
 }
 
 /// The byte offset of a line and column, both counted from 1, the column in characters.

@@ -146,7 +146,7 @@ fn documents_that_are_no_place_transition_net_are_refused_whole() {
     let table = [
         ("<pnml>\n <net></pnml>", "2:7 E0401 this is no well-formed XML: expected 'net' tag, not 'pnml'"),
         ("<pnml>\n", "1:7 E0401 this is no well-formed XML: the root node was opened but never closed"),
-        ("<!DOCTYPE pnml><pnml/>", "1:1 E0401 this is no well-formed XML: XML with DTD detected"),
+        ("<!DOCTYPE pnml><pnml/>", "1:1 E0401 a document type declaration is not part of PNML"),
         ("<pnml>\n<ä b='&x;'/></pnml>", "2:7 E0401 this is no well-formed XML: unknown entity reference 'x'"),
         ("<svg/>", "1:1 E0401 this is no PNML but `<svg>`"),
         ("<pnml/>", "1:1 E0401 this document holds no net"),

@@ -54,6 +54,7 @@ fn operators_bind_as_the_language_says() {
         ("E[a W E [b U c]]", "Some[a W Some[b U c]]"),
         ("AX(a)", "All Next a"),
         ("AX & EG = AG", "(AX & (EG Equal AG))"),
+        ("AX != EG & AG !a", "((AX Unequal EG) & All Globally !a)"),
         ("A = 1 & E | U", "(((A Equal 1) & E) | U)"),
         ("at line 3 -> at idle | at END", "(at 3 -> (at idle | at End))"),
         ("marked(\"S1=1\") & enabled( \"block\" )", "(<S1=1> & <<block>>)"),
@@ -72,7 +73,8 @@ fn what_is_no_formula_is_explained() {
         ("A [a b]", "expected `U` or `W` or an operator, found `b`"),
         ("a & ", "expected a formula, found the end"),
         ("a = 99999999999999999999", "this number is too large"),
-        ("(a", "expected an operator, found the end"),
+        ("(a", "expected `)` or an operator, found the end"),
+        ("A [a U b", "expected `]` or an operator, found the end"),
     ];
     for (text, expected) in cases {
         assert_eq!(read(text), expected, "{text}");

@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::{boolean, first_word, name, span, var_block};
+use super::{boolean, first_word, name, other_language, span, var_block};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Condition, Constant, Instruction, Name, Operand, Operation, Operator, VarBlock, Verb};
@@ -15,6 +15,11 @@ const MAX_DEPTH: usize = 200;
 
 /// The pair of the rule `body`: its instructions, and declaration blocks that stand between them.
 pub fn body(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> (Vec<Instruction>, Vec<VarBlock>) {
+    if let Some(refusal) = other_language::refuse(pair.clone()) {
+        let broken = Instruction { label: None, operation: Some(Operation::Broken), span: refusal.span() };
+        diagnostics.push(refusal);
+        return (vec![broken], Vec::new());
+    }
     let mut list = ListBuilder::default();
     let mut blocks = Vec::new();
     for piece in pair.into_inner() {
@@ -108,6 +113,7 @@ impl ListBuilder {
             let help = "store an intermediate result in a variable instead";
             diagnostics.push(Diagnostic::new(Code::ParenthesisTooDeep, open.span, message).help(help));
         }
+        self.push(None, Some(Operation::Broken), open.span);
         self.too_deep += 1;
     }
 
@@ -130,7 +136,8 @@ impl ListBuilder {
     /// other ends are not reported.
     fn bad_line(&mut self, pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
         let explained = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
-        diagnostics.push(explained.help("an instruction is one operator with one operand, on a line of its own"));
+        let help = "an instruction is one operator with one operand, on a line of its own";
+        diagnostics.push(if explained.help.is_empty() { explained.help(help) } else { explained });
         self.push(None, Some(Operation::Broken), span(pair));
         let mut opened = Vec::new();
         for (at, c) in pair.as_str().char_indices() {
@@ -153,6 +160,7 @@ impl ListBuilder {
         if let Some(innermost) = self.open.last() {
             let message = match self.open.len() + self.too_deep {
                 1 => "this parenthesis is never closed".to_owned(),
+                2 => "this parenthesis and the one around it are never closed".to_owned(),
                 n => format!("this parenthesis and {} around it are never closed", n - 1),
             };
             let help = "close it with `)` on a line of its own";

@@ -1,6 +1,6 @@
 //! A net to devices of a plant, with every check that a plant must pass.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use petgraph::unionfind::UnionFind;
 
@@ -10,6 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::flat::FlatProgram;
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
+use crate::source::Span;
 use crate::translate::valuation;
 
 /// What a place of the net is to the program.
@@ -37,14 +38,32 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
         let message = format!("there are two plants named `{}`", net.name());
         errors.push(Diagnostic::new(Code::PlantNameTwice, span, message).help("give each net a name of its own"));
     }
-    let meanings: Vec<Meaning> = net
-        .place_ids()
-        .filter_map(|place| meaning(file, place, program).map_err(|error| errors.push(error)).ok())
-        .collect();
+    let mut meanings: Vec<Meaning> = Vec::with_capacity(net.places().len());
+    let mut messages = BTreeSet::new();
+    for place in net.place_ids() {
+        match meaning(file, place, program, errors.len()) {
+            Ok(meaning) => meanings.push(meaning),
+            // A variable that does not exist is missed by a place for each of its values.
+            Err(error) => errors.extend(messages.insert(error.message.clone()).then_some(error)),
+        }
+    }
     if !errors.is_empty() {
         return Err(errors);
     }
+    if meanings.iter().all(|meaning| meaning.values().is_empty()) {
+        let span = file.places.first().or(file.transitions.first()).copied().unwrap_or_default();
+        let message = format!("the plant `{}` gives no input a value and reads no output", net.name());
+        let help = "name its places by the values they stand for, like `S1=1,O1=0`";
+        return Err(vec![Diagnostic::new(Code::PlantVariableUnfit, span, message).help(help)]);
+    }
     let components = split(file, &meanings, &mut errors);
+    let taken: BTreeSet<&str> = others.components.iter().flat_map(names).collect();
+    if let Some(twice) = components.iter().flat_map(|(component, _)| names(component)).find(|name| taken.contains(name))
+    {
+        let span = file.places.first().or(file.transitions.first()).copied().unwrap_or_default();
+        let message = format!("two plants have something named `{twice}`");
+        errors.push(Diagnostic::new(Code::PlantNameTwice, span, message).help("give one of the nets another name"));
+    }
     let components: Vec<Component> = components
         .into_iter()
         .filter_map(|(mut component, places)| {
@@ -58,18 +77,20 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
             let giving = net.place_ids().filter(
                 |place| matches!(&meanings[place.index()], Meaning::Own(drives) if drives.iter().any(|d| d.0 == input)),
             );
-            let span = giving.map(|place| file.place_span(place)).last().unwrap_or_default();
+            let spans: Vec<Span> = giving.map(|place| file.place_span(place)).collect();
+            let (first, last) = (spans.first().copied().unwrap_or_default(), spans.last().copied().unwrap_or_default());
             let message = format!("two devices drive the input `{}`", program.variable(input).name);
-            errors.push(
-                Diagnostic::new(Code::PlantInputAmbiguous, span, message)
-                    .help("let one connected net hold all places that give this input a value"),
-            );
+            let diagnostic = Diagnostic::new(Code::PlantInputAmbiguous, last, message);
+            let diagnostic =
+                if first == last { diagnostic } else { diagnostic.also(first, "no transition joins them") };
+            errors.push(diagnostic.help("let one connected net hold all places that give this input a value"));
         }
     }
     if errors.is_empty() { Ok(components) } else { Err(errors) }
 }
 
-fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Meaning, Diagnostic> {
+/// What a place is to the program; `position` is that of its diagnostic, if there will be one.
+fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usize) -> Result<Meaning, Diagnostic> {
     let (name, span) = (&file.net.place(place).name, file.place_span(place));
     let unfit = |message: String| Diagnostic::new(Code::PlantVariableUnfit, span, message);
     let assignments = match valuation::parse(name) {
@@ -86,7 +107,8 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Mean
         let Some(variable) = program.find(written) else {
             let message = format!("the program `{}` has no input or output `{written}`", program.name);
             let names = visible().map(|id| program.variable(id).name.as_str());
-            return Err(Diagnostic::new(Code::PlantVariableUnknown, span, message).suggest(written, names));
+            let unknown = Diagnostic::new(Code::PlantVariableUnknown, span, message);
+            return Err(unknown.suggest_at(position, written, names));
         };
         if values.iter().any(|&(earlier, _)| earlier == variable) {
             return Err(unfit(format!("`{written}` stands twice in one place name")));
@@ -104,10 +126,22 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram) -> Result<Mean
         }
         values.push((variable, value));
     }
-    match values.first() {
-        Some(&(first, _)) if program.variable(first).role == Role::Output => Ok(Meaning::Test(values)),
-        _ => Ok(Meaning::Own(values)),
+    if values.first().is_none_or(|&(first, _)| program.variable(first).role == Role::Input) {
+        return Ok(Meaning::Own(values));
     }
+    let is_so = |&(output, value): &(VarId, bool)| program.variable(output).initial == value;
+    if file.net.place(place).marked && !values.iter().all(is_so) {
+        let message = format!("`{name}` is marked, but the program does not begin with these outputs");
+        return Err(unfit(message).help("leave it unmarked: the program decides when it is marked"));
+    }
+    Ok(Meaning::Test(values))
+}
+
+/// The names a component gives to nodes of the system net.
+fn names(component: &Component) -> impl Iterator<Item = &str> {
+    let places = component.places.iter().map(|place| place.name.as_str());
+    let transitions = component.transitions.iter().map(|transition| transition.name.as_str());
+    places.chain(transitions).chain([component.name.as_str()])
 }
 
 /// The connected components, each with the net's places it is made of. Outputs connect nothing.

@@ -1,0 +1,138 @@
+//! Programs of others, with facts that others computed. They are not part of this project: `PETRIL_DATA` names the folder
+//! that holds them, with the programs in `golden/` and `il/`. Without it there is nothing to test here.
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod support;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use serde_json::Value;
+use support::process::{Run, petril};
+
+/// Programs of this version's language among them, at least.
+const ACCEPTED: [&str; 2] = ["batch_race", "fwdrev_nolock"];
+
+/// The programs in a folder of the data, in order; `None` without data.
+fn programs(folder: &str) -> Option<Vec<PathBuf>> {
+    let Some(data) = env::var_os("PETRIL_DATA") else {
+        eprintln!("PETRIL_DATA is not set: nothing is tested");
+        return None;
+    };
+    let files = fs::read_dir(Path::new(&data).join(folder)).unwrap().map(|file| file.unwrap().path());
+    let mut programs: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|end| end == "il")).collect();
+    assert!(!programs.is_empty(), "no programs in {folder}");
+    programs.sort();
+    Some(programs)
+}
+
+/// Runs `petril` beside the program.
+fn run(program: &Path, verb: &str, arguments: &[&str]) -> Run {
+    let name = program.file_name().unwrap().to_str().unwrap();
+    petril(program.parent().unwrap(), &[&[verb, name], arguments].concat())
+}
+
+/// Whether a program is accepted; if not, it is refused with a place.
+fn is_accepted(program: &Path) -> bool {
+    let run = run(program, "flat", &[]);
+    let lines: Vec<&str> = run.stderr.lines().collect();
+    let place = |line: &str| line.trim_start().strip_prefix("--> ").is_some_and(|place| place.split(':').count() >= 3);
+    let errors = lines.windows(2).filter(|pair| pair[0].starts_with("error[") && place(pair[1])).count();
+    match run.code {
+        0 => assert_eq!(errors, 0, "{}\n{}", program.display(), run.stderr),
+        2 => assert!(errors > 0, "{}\n{}", program.display(), run.stderr),
+        code => panic!("{} ends with {code}\n{}", program.display(), run.stderr),
+    }
+    run.code == 0
+}
+
+/// The golden programs that are accepted, by name.
+fn accepted() -> Vec<(String, PathBuf)> {
+    let accepted: Vec<PathBuf> =
+        programs("golden").unwrap_or_default().into_iter().filter(|p| is_accepted(p)).collect();
+    let named = accepted.into_iter().map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), path));
+    named.collect()
+}
+
+/// The rows of a table, each a value by the name of its column in upper case.
+fn table(text: &str) -> Vec<BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let head: Vec<String> = reader.headers().unwrap().iter().map(str::to_uppercase).collect();
+    let row = |record: csv::StringRecord| head.iter().cloned().zip(record.iter().map(str::to_owned)).collect();
+    reader.records().map(|record| row(record.unwrap())).collect()
+}
+
+#[test]
+fn programs_of_this_language_are_accepted() {
+    if programs("golden").is_none() {
+        return;
+    }
+    let accepted = accepted();
+    let missing: Vec<&str> =
+        ACCEPTED.into_iter().filter(|&name| accepted.iter().all(|(accepted, _)| accepted != name)).collect();
+    assert!(missing.is_empty(), "refused: {missing:?}");
+}
+
+#[test]
+fn traces_are_those_of_the_reference_compiler() {
+    for (name, path) in accepted() {
+        let run = run(&path, "simulate", &["--inputs", &format!("{name}.inputs.csv"), "--format", "csv"]);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let simulated = table(&run.stdout);
+        let trace = table(&fs::read_to_string(path.with_extension("trace.csv")).unwrap());
+        let scans: Vec<_> = trace.iter().filter(|row| row["CYCLE"] != "INIT").collect();
+        assert_eq!((simulated.len(), scans.len()), (200, 200), "{name}");
+        for (simulated, expected) in simulated.iter().zip(scans) {
+            assert_eq!(simulated, expected, "{name}, scan {}", expected["CYCLE"]);
+        }
+    }
+}
+
+#[test]
+fn facts_are_those_of_the_independent_checker() {
+    for (name, path) in accepted() {
+        let facts: Value =
+            serde_json::from_str(&fs::read_to_string(path.with_extension("facts.json")).unwrap()).unwrap();
+        let properties = facts["properties"].as_array().unwrap();
+        let formulas = properties.iter().flat_map(|property| ["-r", property["formula"].as_str().unwrap()]);
+        let run = run(&path, "check", &std::iter::once("--json").chain(formulas).collect::<Vec<_>>());
+        let report: Value = serde_json::from_str(&run.stdout).unwrap_or_else(|e| panic!("{name}: {e}\n{}", run.stderr));
+        assert_eq!(report["exploration"]["states"], facts["end_of_scan_states"], "{name}");
+        assert_eq!(report["exploration"]["depth"], facts["depth"], "{name}");
+        let answers = report["requirements"].as_array().unwrap();
+        assert_eq!(answers.len(), properties.len());
+        let some_fail = properties.iter().any(|property| property["holds"] == false);
+        assert_eq!(run.code, i32::from(some_fail), "{name}");
+        for (answer, property) in answers.iter().zip(properties) {
+            agrees(answer, property, &name);
+        }
+    }
+}
+
+fn agrees(answer: &Value, property: &Value, name: &str) {
+    let formula = property["formula"].as_str().unwrap();
+    let holds = property["holds"].as_bool().unwrap();
+    assert_eq!(answer["verdict"], if holds { "holds" } else { "violated" }, "{name}: {formula}");
+    let scans = answer["trace"]["scans"].as_array().map(Vec::len);
+    for length in ["shortest_counterexample_scans", "shortest_witness_scans"] {
+        if let Some(expected) = property[length].as_u64() {
+            assert_eq!(scans, Some(expected as usize), "{name}: {formula}");
+        }
+    }
+    if property["antecedent_reachable"] == false {
+        assert_eq!(answer["vacuous"], true, "{name}: {formula}");
+    } else {
+        assert_eq!(answer["vacuous"], false, "{name}: {formula}");
+    }
+}
+
+#[test]
+fn every_program_is_accepted_or_refused_with_a_place() {
+    let programs = programs("il").unwrap_or_default().into_iter().chain(programs("golden").unwrap_or_default());
+    let (mut accepted, mut refused) = (0, 0);
+    for program in programs {
+        if is_accepted(&program) { accepted += 1 } else { refused += 1 }
+    }
+    eprintln!("{accepted} accepted, {refused} refused");
+}

@@ -1,0 +1,222 @@
+//! Words of each language in any order: whatever is read, every diagnostic points into the text and can be printed.
+
+use petril::diagnostic::{Diagnostic, Style, any_error, render};
+use petril::exchange::{pnml, tina};
+use petril::flat::flatten;
+use petril::logic::{View, bind, parse_requirements};
+use petril::source::Source;
+use petril::translate::{Plant, System};
+use petril::{semantics, syntax};
+use proptest::prelude::*;
+
+use super::support;
+
+const PROGRAM: &[&str] = &[
+    "PROGRAM ",
+    "p",
+    "\n",
+    "\n",
+    "\n",
+    " ",
+    " ",
+    "END_PROGRAM",
+    "FUNCTION ",
+    "END_FUNCTION",
+    "VAR ",
+    "VAR_INPUT ",
+    "VAR_OUTPUT ",
+    "END_VAR",
+    "CONSTANT ",
+    "RETAIN ",
+    "a",
+    "b",
+    "q",
+    " : BOOL;",
+    " : BOOL := TRUE;",
+    " : INT",
+    ":=",
+    ":",
+    ";",
+    ",",
+    "LD a\n",
+    "ST q\n",
+    "LD ",
+    "AND ",
+    "AND( ",
+    "OR(\n",
+    ")",
+    "(",
+    "NOT",
+    "JMP ",
+    "JMPC a\n",
+    "RET\n",
+    "a: ",
+    "CAL ",
+    "%IX0.0",
+    "1",
+    "TRUE",
+    "16#FF",
+    "'text'",
+    "(*",
+    "*)",
+    "//",
+    "\r",
+    "ä",
+    "→",
+    "\u{feff}",
+    "\t",
+    "AT ",
+    "CONFIGURATION",
+    "END_CONFIGURATION",
+];
+const NET: &[&str] = &[
+    "net ", "pl ", "tr ", "pr ", "\n", "\n", " ", " ", "a", "p", "{a=1}", "{", "}", "\\", "->", " -> ", "*2", "?1",
+    "?-1", "(1)", "(2)", "[0,w[", ":", "#", "ä", "\r",
+];
+const PNML: &[&str] = &[
+    "<pnml>",
+    "</pnml>",
+    "<net id='n' type='http://www.pnml.org/version-2009/grammar/ptnet'>",
+    "</net>",
+    "<page id='g'>",
+    "</page>",
+    "<place id='p'>",
+    "</place>",
+    "<place id='q'/>",
+    "<transition id='t'/>",
+    "<arc id='x' source='p' target='t'/>",
+    "<arc id='y' source='t' target='p'/>",
+    "<initialMarking><text>1</text></initialMarking>",
+    "<name><text>a=1</text></name>",
+    "<referencePlace id='r' ref='p'/>",
+    "<text>",
+    "&amp;",
+    "&e;",
+    "<!--",
+    "-->",
+    "<![CDATA[",
+    "]]>",
+    "ä",
+    "\n",
+    "<",
+    ">",
+    "'",
+];
+const REQUIREMENT: &[&str] = &[
+    "requirement ",
+    "r",
+    "s",
+    ":",
+    ";",
+    "\n",
+    " ",
+    " ",
+    "\"what\"",
+    "\"",
+    "AG ",
+    "EF ",
+    "A [",
+    "E[",
+    " U ",
+    " W ",
+    "]",
+    "(",
+    ")",
+    "!",
+    "&",
+    "|",
+    "->",
+    "<->",
+    "=",
+    "<",
+    "+",
+    "*",
+    "-",
+    "1",
+    "9223372036854775807",
+    "a",
+    "q",
+    "TRUE",
+    "at line 1",
+    "at idle",
+    "marked(\"q=1\")",
+    "(*",
+    "*)",
+    "//",
+    "ä",
+];
+
+fn soup(words: &'static [&'static str]) -> impl Strategy<Value = String> {
+    proptest::collection::vec(proptest::sample::select(words), 0..40).prop_map(|words| words.concat())
+}
+
+/// Every label lies in the text, on the boundaries of letters, and the diagnostic can be printed and is not empty.
+fn are_printable(diagnostics: &[Diagnostic], source: &Source) -> Result<(), TestCaseError> {
+    for diagnostic in diagnostics {
+        for label in &diagnostic.labels {
+            prop_assert!(source.text().get(label.span.range()).is_some(), "{:?} in {:?}", diagnostic, source.text());
+        }
+        let (line, column) = source.line_column(diagnostic.span().start);
+        let printed = render(diagnostic, source, Style::default());
+        let place = format!("--> soup:{line}:{column}\n");
+        prop_assert!(printed.contains(&place), "no {} in\n{}", place, printed);
+        prop_assert!(!diagnostic.message.is_empty() && !diagnostic.message.contains("Rule::"), "{}", printed);
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn of_programs(body in soup(PROGRAM), framed in any::<bool>()) {
+        let head = "PROGRAM p\nVAR a, b, q : BOOL; END_VAR\n";
+        let source = Source::new("soup", if framed { format!("{head}{body}\nEND_PROGRAM") } else { body });
+        let (unit, mut diagnostics) = syntax::parse(&source);
+        let (program, more) = semantics::check(&unit, !any_error(&diagnostics));
+        diagnostics.extend(more);
+        are_printable(&diagnostics, &source)?;
+        prop_assert_eq!(program.is_none(), any_error(&diagnostics), "{:?}", diagnostics);
+        if let Some(program) = program {
+            let system = System::new(flatten(&program), Plant::default());
+            prop_assert!(system.net.initial_marking().marked().count() > 0);
+        }
+    }
+
+    #[test]
+    fn of_nets(text in soup(NET)) {
+        let source = Source::new("soup", text);
+        if let Err(diagnostics) = tina::read(&source) {
+            prop_assert!(any_error(&diagnostics));
+            are_printable(&diagnostics, &source)?;
+        }
+    }
+
+    #[test]
+    fn of_pnml(page in soup(PNML), framed in any::<bool>()) {
+        let head = "<pnml><net id='n' type='http://www.pnml.org/version-2009/grammar/ptnet'>";
+        let source = Source::new("soup", if framed { format!("{head}{page}</net></pnml>") } else { page });
+        if let Err(diagnostics) = pnml::read(&source) {
+            prop_assert!(any_error(&diagnostics));
+            are_printable(&diagnostics, &source)?;
+        }
+    }
+
+    #[test]
+    fn of_requirements(text in soup(REQUIREMENT), framed in any::<bool>()) {
+        let source = Source::new("soup", if framed { format!("requirement r: {text};") } else { text });
+        let (requirements, diagnostics) = parse_requirements(&source);
+        are_printable(&diagnostics, &source)?;
+        prop_assert!(!requirements.is_empty() || any_error(&diagnostics));
+        let program = support::program("PROGRAM p VAR a, q : BOOL; END_VAR\nLD a\nST q\nEND_PROGRAM");
+        let system = System::new(program, Plant::default());
+        for requirement in requirements {
+            for view in [View::Scan, View::Transition] {
+                if let Err(diagnostics) = bind(&requirement.formula, &system, view) {
+                    prop_assert!(any_error(&diagnostics));
+                    are_printable(&diagnostics, &source)?;
+                }
+            }
+        }
+    }
+}

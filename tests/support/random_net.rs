@@ -1,0 +1,50 @@
+//! Random nets: some safe by construction, some anything.
+
+use petril::net::{Arcs, Builder, Net};
+use proptest::prelude::*;
+
+/// A safe net: up to three devices of one token each, and transitions that move the token of one or several of them, and
+/// read places of any.
+pub fn safe_net() -> impl Strategy<Value = Net> {
+    let sizes = proptest::collection::vec(1..5_usize, 1..=3);
+    let moves = proptest::collection::vec(proptest::option::weighted(0.6, (0..5_usize, 0..5_usize)), 3);
+    let reads = proptest::collection::vec((0..3_usize, 0..5_usize), 0..2);
+    (sizes, proptest::collection::vec((moves, reads), 0..9)).prop_map(|(sizes, transitions)| {
+        let mut builder = Builder::new("safe");
+        let mut device = |(d, &size): (usize, &usize)| -> Vec<_> {
+            (0..size).map(|p| builder.place(format!("d{d}p{p}"), p == 0)).collect()
+        };
+        let devices: Vec<Vec<_>> = sizes.iter().enumerate().map(&mut device).collect();
+        let place = |d: usize, p: usize| devices[d % devices.len()][p % devices[d % devices.len()].len()];
+        for (t, (moves, reads)) in transitions.into_iter().enumerate() {
+            let mut arcs = Arcs::default();
+            for (d, (from, to)) in moves.into_iter().enumerate().take(devices.len()).filter_map(|(d, m)| Some((d, m?)))
+            {
+                arcs.consume.push(place(d, from));
+                arcs.produce.push(place(d, to));
+            }
+            arcs.read.extend(reads.into_iter().map(|(d, p)| place(d, p)));
+            // A device whose token is moved has no place that could be read as well, but the one it is taken from.
+            let moved =
+                |place: &_| devices.iter().any(|d| d.contains(place) && d.iter().any(|p| arcs.consume.contains(p)));
+            let read: Vec<_> = arcs.read.iter().copied().filter(|place| !moved(place)).collect();
+            builder.transition(format!("t{t}"), Arcs { read, ..arcs });
+        }
+        builder.build()
+    })
+}
+
+/// Any small net; most are not safe.
+pub fn any_net() -> impl Strategy<Value = Net> {
+    let list = || proptest::collection::vec(0..5_usize, 0..3);
+    let transitions = proptest::collection::vec((list(), list(), list()), 0..6);
+    (proptest::collection::vec(any::<bool>(), 5), transitions).prop_map(|(marked, transitions)| {
+        let mut builder = Builder::new("any");
+        let places: Vec<_> = marked.iter().enumerate().map(|(i, &m)| builder.place(format!("p{i}"), m)).collect();
+        for (t, (consume, produce, read)) in transitions.into_iter().enumerate() {
+            let ids = |list: Vec<usize>| list.into_iter().map(|p| places[p]).collect();
+            builder.transition(format!("t{t}"), Arcs { consume: ids(consume), produce: ids(produce), read: ids(read) });
+        }
+        builder.build()
+    })
+}
