@@ -1,0 +1,174 @@
+//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest`.
+//!
+//! Times are the shortest of several runs; runs that are compared take turns.
+
+mod programs;
+
+use std::time::{Duration, Instant};
+
+use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, StateSpace, explore};
+use petril::flat::flatten;
+use petril::semantics;
+use petril::source::Source;
+use petril::syntax;
+use petril::translate::{Plant, System};
+use programs::{filters, mixed, system};
+use rayon::ThreadPoolBuilder;
+
+/// Runs of each measurement.
+const RUNS: usize = 7;
+
+fn main() {
+    let asked = |word: &str| std::env::args().any(|argument| argument == word);
+    // Without `--bench` this is a run of the tests, which has nothing to measure.
+    match (asked("--bench"), asked("largest")) {
+        (false, _) => {}
+        (true, true) => scan_view(&[(3, 7)], 1),
+        (true, false) => {
+            program_sizes();
+            scan_view(&[(1, 9), (2, 5), (3, 4), (3, 5), (2, 9), (3, 6)], RUNS);
+            both_views();
+            threads();
+        }
+    }
+}
+
+/// Prints a table as Markdown has it.
+fn table(heads: &[&str], rows: impl Iterator<Item = Vec<String>>) {
+    println!("\n| {} |", heads.join(" | "));
+    println!("|{}", "--:|".repeat(heads.len()));
+    rows.for_each(|row| println!("| {} |", row.join(" | ")));
+}
+
+/// The shortest time of some runs of each task, and what that run returned.
+fn shortest<T, const N: usize>(runs: usize, mut tasks: [&mut dyn FnMut() -> T; N]) -> [(Duration, T); N] {
+    let mut timed = |task: usize| {
+        let start = Instant::now();
+        let result = tasks[task]();
+        (start.elapsed(), result)
+    };
+    let mut best: [(Duration, T); N] = std::array::from_fn(&mut timed);
+    for _ in 1..runs {
+        for (task, best) in best.iter_mut().enumerate() {
+            let run = timed(task);
+            if run.0 < best.0 {
+                *best = run;
+            }
+        }
+    }
+    best
+}
+
+/// Programs from 10 to 10,000 instructions, read and translated.
+fn program_sizes() {
+    let heads = ["instructions", "lines", "places", "transitions", "read, µs", "translate, µs", "ns per instruction"];
+    let rows = [10, 30, 100, 300, 1000, 3000, 10_000].into_iter().filter_map(|instructions| {
+        let source = Source::new("mixed", mixed(instructions));
+        let read = || {
+            let (unit, errors) = syntax::parse(&source);
+            semantics::check(&unit, errors.is_empty()).0
+        };
+        let program = read()?;
+        let translate = || System::new(flatten(&program), Plant::default());
+        let [(reading, ()), (translating, ())] = shortest(5 * RUNS, [&mut || drop(read()), &mut || drop(translate())]);
+        let System { program, net, .. } = translate();
+        let each = (reading + translating).as_nanos() / instructions as u128;
+        let counts = [instructions, program.end(), net.places().len(), net.transitions().len()];
+        let times = [reading.as_micros(), translating.as_micros(), each];
+        Some(counts.iter().map(usize::to_string).chain(times.iter().map(u128::to_string)).collect())
+    });
+    table(&heads, rows);
+}
+
+/// Everything reachable in a space, on so many threads.
+fn explored(space: &dyn StateSpace, threads: usize) -> Graph {
+    let search = || explore(space, Budget::default(), &mut |_| None);
+    match ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(search),
+        Err(error) => unreachable!("{error}"),
+    }
+}
+
+/// How often in a second, in millions.
+fn rate(count: usize, time: Duration) -> String {
+    format!("{:.2}", count as f64 / time.as_secs_f64() / 1e6)
+}
+
+fn milliseconds(time: Duration) -> String {
+    format!("{:.1}", time.as_secs_f64() * 1e3)
+}
+
+fn ratio(a: Duration, b: Duration) -> String {
+    format!("{:.1}", a.as_secs_f64() / b.as_secs_f64())
+}
+
+/// What a state takes, its steps included.
+fn bytes(graph: &Graph) -> String {
+    (graph.bytes() / graph.len() as u64).to_string()
+}
+
+fn scan_view(sizes: &[(usize, usize)], runs: usize) {
+    let heads =
+        ["program", "lines", "states", "steps", "ms", "M states/s", "M steps/s", "M lines/s", "bytes per state"];
+    let rows = sizes.iter().map(|&(inputs, scans)| {
+        let system = system(&filters(inputs, scans));
+        let (lines, space) = (system.program.end(), ScanSpace::new(&system));
+        let [(time, graph)] = shortest(runs, [&mut || explored(&space, 2)]);
+        let mut row = vec![format!("{inputs} × {scans}")];
+        row.extend([lines, graph.len(), graph.steps()].map(|count| count.to_string()));
+        row.push(milliseconds(time));
+        row.extend([graph.len(), graph.steps(), graph.steps() * lines].map(|count| rate(count, time)));
+        row.push(bytes(&graph));
+        row
+    });
+    table(&heads, rows);
+}
+
+fn both_views() {
+    let heads = [
+        "program",
+        "scan states",
+        "markings",
+        "ratio",
+        "scan view, ms",
+        "transition view, ms",
+        "ratio",
+        "M markings/s",
+        "bytes per marking",
+    ];
+    let rows = [(2, 2), (2, 3), (2, 4), (2, 5), (2, 6), (3, 3), (3, 4)].into_iter().map(|(inputs, scans)| {
+        let system = system(&filters(inputs, scans));
+        let (scans_of, markings_of) = (ScanSpace::new(&system), MarkingSpace::new(&system.net));
+        let [(scan_time, states), (firing_time, markings)] =
+            shortest(RUNS, [&mut || explored(&scans_of, 2), &mut || explored(&markings_of, 2)]);
+        vec![
+            format!("{inputs} × {scans}"),
+            states.len().to_string(),
+            markings.len().to_string(),
+            format!("{:.0}", markings.len() as f64 / states.len() as f64),
+            milliseconds(scan_time),
+            milliseconds(firing_time),
+            ratio(firing_time, scan_time),
+            rate(markings.len(), firing_time),
+            bytes(&markings),
+        ]
+    });
+    table(&heads, rows);
+}
+
+fn threads() {
+    let row = |view: &str, (inputs, scans), space: &dyn StateSpace| {
+        let [(one, graph), (two, _)] = shortest(RUNS, [&mut || explored(space, 1), &mut || explored(space, 2)]);
+        let (program, states) = (format!("{inputs} × {scans}"), graph.len().to_string());
+        vec![view.to_owned(), program, states, milliseconds(one), milliseconds(two), ratio(one, two)]
+    };
+    let scans = [(3, 5), (2, 9), (3, 6)].into_iter().map(|size: (usize, usize)| {
+        let system = system(&filters(size.0, size.1));
+        row("scan", size, &ScanSpace::new(&system))
+    });
+    let firings = [(2, 5), (2, 6)].into_iter().map(|size: (usize, usize)| {
+        let system = system(&filters(size.0, size.1));
+        row("transition", size, &MarkingSpace::new(&system.net))
+    });
+    table(&["view", "program", "states", "1 thread, ms", "2 threads, ms", "ratio"], scans.chain(firings));
+}
