@@ -90,7 +90,7 @@ fn explored(space: &dyn StateSpace, threads: usize) -> Graph {
 }
 
 /// How often in a second, in millions.
-fn rate(count: usize, time: Duration) -> String {
+fn rate(count: u64, time: Duration) -> String {
     format!("{:.2}", count as f64 / time.as_secs_f64() / 1e6)
 }
 
@@ -112,12 +112,12 @@ fn scan_view(sizes: &[(usize, usize)], runs: usize) {
         ["program", "lines", "states", "steps", "ms", "M states/s", "M steps/s", "M lines/s", "bytes per state"];
     let rows = sizes.iter().map(|&(inputs, scans)| {
         let system = system(&filters(inputs, scans));
-        let (lines, space) = (system.program.end(), ScanSpace::new(&system));
+        let (lines, space) = (system.program.end() as u64, ScanSpace::new(&system));
         let [(time, graph)] = shortest(runs, [&mut || explored(&space, 2)]);
         let mut row = vec![format!("{inputs} × {scans}")];
-        row.extend([lines, graph.len(), graph.steps()].map(|count| count.to_string()));
+        row.extend([lines, graph.len() as u64, graph.steps()].map(|count| count.to_string()));
         row.push(milliseconds(time));
-        row.extend([graph.len(), graph.steps(), graph.steps() * lines].map(|count| rate(count, time)));
+        row.extend([graph.len() as u64, graph.steps(), graph.steps() * lines].map(|count| rate(count, time)));
         row.push(bytes(&graph));
         row
     });
@@ -149,7 +149,7 @@ fn both_views() {
             milliseconds(scan_time),
             milliseconds(firing_time),
             ratio(firing_time, scan_time),
-            rate(markings.len(), firing_time),
+            rate(markings.len() as u64, firing_time),
             bytes(&markings),
         ]
     });

@@ -72,7 +72,7 @@ fn exploring(criterion: &mut Criterion) {
     let markings = MarkingSpace::new(&system_of_markings.net);
     let spaces: [(&str, &dyn StateSpace); 2] = [("scan view", &scans), ("transition view", &markings)];
     for (view, space) in spaces {
-        group.throughput(Throughput::Elements(explored(space).steps() as u64));
+        group.throughput(Throughput::Elements(explored(space).steps()));
         group.bench_function(view, |bencher| bencher.iter(|| explored(space)));
     }
 }
@@ -95,7 +95,7 @@ fn labelling(criterion: &mut Criterion) {
     let space = ScanSpace::new(&system);
     let graph = explored(&space);
     // Predecessors are computed when first asked for, which is not to be counted.
-    black_box(graph.predecessors(0));
+    black_box(graph.rows_to(0));
     group.throughput(Throughput::Elements(graph.len() as u64));
     for text in FORMULAS {
         let bound = formula(text, &system);
