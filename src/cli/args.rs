@@ -189,7 +189,8 @@ pub struct Draw {
     /// The line of the program's flat code to draw, as `petril flat` numbers it.
     #[arg(long, value_name = "N", requires = "program")]
     pub line: Option<usize>,
-    /// An operator to draw, without a program: LD LDN ST STN S R AND ANDN OR ORN XOR XORN NOT JMP JMPC JMPCN.
+    /// An operator to draw, without a program: LD LDN ST STN S R AND ANDN OR ORN XOR XORN NOT JMP JMPC JMPCN RET RETC
+    /// RETCN.
     #[arg(long, value_name = "OPERATOR", conflicts_with = "program")]
     pub instruction: Option<String>,
     /// Where to write the SVG picture.

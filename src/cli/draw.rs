@@ -11,8 +11,10 @@ use super::console::Console;
 use super::{Failure, Outcome, SUCCESS, input, output};
 
 /// The operators there are pictures of.
-const OPERATORS: [&str; 15] =
-    ["LD", "LDN", "ST", "STN", "S", "R", "AND", "ANDN", "OR", "ORN", "XOR", "XORN", "NOT", "JMP", "JMPC"];
+const OPERATORS: [&str; 19] = [
+    "LD", "LDN", "ST", "STN", "S", "R", "AND", "ANDN", "OR", "ORN", "XOR", "XORN", "NOT", "JMP", "JMPC", "JMPCN",
+    "RET", "RETC", "RETCN",
+];
 
 pub fn run(arguments: &Draw, console: &Console) -> Outcome {
     let (program, line) = match (&arguments.program, &arguments.instruction) {
@@ -39,13 +41,16 @@ fn single(operator: &str) -> Result<(FlatProgram, usize), Failure> {
     let operator = operator.trim().to_ascii_uppercase();
     let unknown = || {
         let hint = nearest(&operator, OPERATORS).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
-        Failure::Message(format!("there is no picture of `{operator}`{hint}"))
+        Failure::Message(format!(
+            "there is no picture of `{operator}`{hint}\n  the operators there are pictures of: {}",
+            OPERATORS.join(" ")
+        ))
     };
-    if !OPERATORS.contains(&operator.as_str()) && operator != "JMPCN" {
+    if !OPERATORS.contains(&operator.as_str()) {
         return Err(unknown());
     }
     let operand = match operator.as_str() {
-        "NOT" => "",
+        "NOT" | "RET" | "RETC" | "RETCN" => "",
         _ if operator.starts_with("JMP") => "on",
         _ => "x",
     };
