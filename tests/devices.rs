@@ -71,12 +71,12 @@ fn the_closure_follows_the_outputs() {
     let device = &plant.components[0];
     assert_eq!(markings(device), [["n.a=1,b=0"], ["n.a=0,b=0"], ["n.a=0,b=1"]]);
     let reached = |from, q| -> Vec<usize> { device.closure(from, |_| q).iter().map(|&(marking, _)| marking).collect() };
-    assert_eq!(reached(0, true), [0, 1, 2], "out, nearest first");
-    assert_eq!(reached(1, true), [1, 2]);
-    assert_eq!(reached(2, true), [2], "it is out");
-    assert_eq!(reached(2, false), [2, 1, 0], "in again");
-    assert_eq!(reached(0, false), [0]);
-    let (_, by) = device.closure(0, |_| true)[2];
+    assert_eq!(reached(0, 1), [0, 1, 2], "out, nearest first");
+    assert_eq!(reached(1, 1), [1, 2]);
+    assert_eq!(reached(2, 1), [2], "it is out");
+    assert_eq!(reached(2, 0), [2, 1, 0], "in again");
+    assert_eq!(reached(0, 0), [0]);
+    let (_, by) = device.closure(0, |_| 1)[2];
     assert_eq!(by, Some((1, Move { transition: 1, target: 2 })));
 }
 
@@ -84,16 +84,16 @@ fn the_closure_follows_the_outputs() {
 fn paths_are_shortest_or_there_is_none() {
     let plant = plant(CYLINDER);
     let device = &plant.components[0];
-    assert_eq!(device.path(0, 2, |_| true), Some(vec![0, 1]));
-    assert_eq!(device.path(2, 0, |_| false), Some(vec![2, 3]));
-    assert_eq!(device.path(1, 1, |_| true), Some(vec![]));
-    assert_eq!(device.path(0, 2, |_| false), None);
-    assert_eq!(device.path(2, 1, |_| true), None);
+    assert_eq!(device.path(0, 2, |_| 1), Some(vec![0, 1]));
+    assert_eq!(device.path(2, 0, |_| 0), Some(vec![2, 3]));
+    assert_eq!(device.path(1, 1, |_| 1), Some(vec![]));
+    assert_eq!(device.path(0, 2, |_| 0), None);
+    assert_eq!(device.path(2, 1, |_| 1), None);
     // Two ways, by a second place that says the same of the input: the shorter one is taken, though it is defined last.
     let ways = self::plant("pl {a=0} (1)\ntr s {a=0} -> { a=0}\ntr t { a=0} -> {a=1}\ntr u {a=0} -> {a=1}\n");
     let device = &ways.components[0];
     assert_eq!(markings(device), [["n.a=0"], ["n. a=0"], ["n.a=1"]]);
-    assert_eq!(device.path(0, 2, |_| true), Some(vec![2]));
+    assert_eq!(device.path(0, 2, |_| 1), Some(vec![2]));
 }
 
 #[test]
@@ -101,9 +101,9 @@ fn markings_give_each_input_its_value() {
     let plant = plant(CYLINDER);
     let [a, b] = ["a", "b"].map(|name| program().find(name).unwrap());
     let values: Vec<_> = plant.components[0].markings.iter().map(|marking| marking.inputs.clone()).collect();
-    assert_eq!(values, [[(a, true), (b, false)], [(a, false), (b, false)], [(a, false), (b, true)]]);
+    assert_eq!(values, [[(a, 1), (b, 0)], [(a, 0), (b, 0)], [(a, 0), (b, 1)]]);
     let tests: Vec<_> = plant.components[0].transitions.iter().map(|t| t.tests[0].1).collect();
-    assert_eq!(tests, [true, true, false, false]);
+    assert_eq!(tests, [1, 1, 0, 0]);
 }
 
 #[test]

@@ -53,14 +53,15 @@ fn agree(program: FlatProgram, scans: &[[bool; 3]]) -> Result<(), TestCaseError>
     let mut marking = system.net.initial_marking();
     for inputs in scans {
         for (input, &value) in system.program.with_role(Role::Input).zip(inputs) {
-            machine.set(input, value);
+            machine.set(input, u64::from(value));
         }
         match (machine.scan(), play(&system, &mut marking, inputs)) {
             (Ok(()), Some(())) => {}
             (Err(Fault::Endless), None) => return Ok(()),
             (interpreted, played) => prop_assert!(false, "interpreter {interpreted:?}, net {played:?}"),
         }
-        let interpreted: Vec<_> = (0..system.program.variables.len()).map(|v| Some(machine.value(VarId(v)))).collect();
+        let interpreted: Vec<_> =
+            (0..system.program.variables.len()).map(|v| Some(machine.value(VarId(v)) == 1)).collect();
         prop_assert_eq!(interpreted, memory(&system, &marking));
         let unblock = system.transitions_of(TransitionRole::Unblock).next().unwrap();
         system.net.fire(&mut marking, unblock).expect("the net is safe");

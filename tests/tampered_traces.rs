@@ -39,13 +39,13 @@ fn every_piece_of_a_scan_trace_counts() {
     let id = |name: &str| system.program.find(name).unwrap();
 
     // An input the plant did not give.
-    refuse("in scan 2: 0 transitions are enabled", &|trace| trace.scans[1].inputs[0].1 ^= true);
+    refuse("in scan 2: 0 transitions are enabled", &|trace| trace.scans[1].inputs[0].1 ^= 1);
     refuse("in scan 1", &|trace| _ = trace.scans[0].inputs.pop());
     refuse("in scan 3", &|trace| trace.scans[2].inputs.reverse());
     // A state the program does not leave.
     for (scan, name) in [(0, "Output"), (1, "Step_2"), (2, "S1")] {
         let why = format!("in scan {}: the search has another value of `{name}`", scan + 1);
-        refuse(&why, &|trace| trace.scans[scan].end.as_mut().unwrap().memory[id(name).0] ^= true);
+        refuse(&why, &|trace| trace.scans[scan].end.as_mut().unwrap().memory[id(name).0] ^= 1);
     }
     refuse("in scan 2: the search has another marking of `hands.1`", &|trace| {
         trace.scans[1].end.as_mut().unwrap().plant[0] ^= 1;
@@ -79,7 +79,7 @@ fn a_scan_that_never_ends_cannot_be_claimed_to_end() {
     refused(&system, &endless, "in scan 1: it never ends", |trace| {
         trace.scans[0].end = Some(space.power_on());
     });
-    refused(&system, &endless, "in scan 1: it ends", |trace| trace.scans[0].inputs[0].1 = false);
+    refused(&system, &endless, "in scan 1: it ends", |trace| trace.scans[0].inputs[0].1 = 0);
 }
 
 #[test]
@@ -147,10 +147,10 @@ proptest! {
         let scan = scan.index(trace.scans.len());
         let scan = &mut trace.scans[scan];
         if of_input {
-            scan.inputs[bit.index(3)].1 ^= true;
+            scan.inputs[bit.index(3)].1 ^= 1;
         } else {
             let declared: Vec<_> = system.program.declared().collect();
-            scan.end.as_mut().unwrap().memory[bit.get(&declared).0] ^= true;
+            scan.end.as_mut().unwrap().memory[bit.get(&declared).0] ^= 1;
         }
         prop_assert!(replayed(&system, &trace).is_err());
     }

@@ -77,7 +77,7 @@ fn explored(system: &System) -> BTreeMap<(Memory, Hands), usize> {
     let graph: Graph = explore(&space, Budget::default(), &mut |_| None);
     assert!(graph.is_complete());
     let state = |id: u32| {
-        let value = |name: &str| space.value(graph.state(id), system.program.find(name).unwrap());
+        let value = |name: &str| space.value(graph.state(id), system.program.find(name).unwrap()) == 1;
         let step = ["Step_0", "Step_1", "Step_2"].map(value);
         let hands = Hands { s: ["S1", "S2"].map(value), o: ["O1", "O2"].map(value) };
         ((Memory { step, output: value("Output") }, hands), graph.path_to(id).len())
@@ -125,8 +125,8 @@ fn the_flat_code_is_figure_9() {
     assert_eq!(names(Role::Input), ["S1", "S2", "O1", "O2"]);
     assert_eq!(names(Role::Output), ["Output"]);
     assert_eq!(names(Role::Buffer), ["A", "B"]);
-    let initial: Vec<bool> = program.variables.iter().map(|variable| variable.initial).collect();
-    assert_eq!(initial, [true, false, false, false, false, false, false, false, false, false]);
+    let initial: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
+    assert_eq!(initial, [1, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
 }
 
 #[test]

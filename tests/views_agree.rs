@@ -134,7 +134,7 @@ proptest! {
         let (scans, markings) = (ScanSpace::new(&system), MarkingSpace::new(&system.net));
         let graph = explore(&scans, Budget::default(), &mut |_| None);
         let mut from_scans: Vec<Vec<bool>> =
-            graph.ids().map(|s| system.program.declared().map(|v| scans.value(graph.state(s), v)).collect()).collect();
+            graph.ids().map(|s| system.program.declared().map(|v| scans.value(graph.state(s), v) == 1).collect()).collect();
         let all = explore(&markings, Budget::default(), &mut |_| None);
         let end = system.place(PlaceRole::Line(system.program.end()));
         let at_end = all.ids().filter(|&s| markings.is_marked(all.state(s), end));

@@ -54,7 +54,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
 }
 
 /// The rows of a table of inputs: the values each sets.
-fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, bool)>>, Vec<Diagnostic>> {
+fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, u64)>>, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text().as_bytes());
     // The reader gives no columns, so a diagnostic points at the whole line.
@@ -131,31 +131,31 @@ fn malformed(error: &csv::Error, span: Span) -> Diagnostic {
     Diagnostic::new(Code::InputTable, span, message).help("give each input one value, separated by commas")
 }
 
-fn truth(cell: &str) -> Option<bool> {
+fn truth(cell: &str) -> Option<u64> {
     match cell {
-        "0" => Some(false),
-        "1" => Some(true),
-        _ if cell.eq_ignore_ascii_case("FALSE") => Some(false),
-        _ if cell.eq_ignore_ascii_case("TRUE") => Some(true),
+        "0" => Some(0),
+        "1" => Some(1),
+        _ if cell.eq_ignore_ascii_case("FALSE") => Some(0),
+        _ if cell.eq_ignore_ascii_case("TRUE") => Some(1),
         _ => None,
     }
 }
 
 /// A row a scan: its number, then the declared variables.
-fn rows(states: &[Vec<bool>]) -> impl Iterator<Item = Vec<String>> {
+fn rows(states: &[Vec<u64>]) -> impl Iterator<Item = Vec<String>> {
     states.iter().enumerate().map(|(scan, state)| {
-        let values = state.iter().map(|&value| u8::from(value).to_string());
+        let values = state.iter().map(|&value| value.to_string());
         std::iter::once((scan + 1).to_string()).chain(values).collect()
     })
 }
 
-fn csv(program: &FlatProgram, states: &[Vec<bool>]) -> String {
+fn csv(program: &FlatProgram, states: &[Vec<u64>]) -> String {
     let names = program.declared().map(|id| program.variable(id).name.clone());
     let head: Vec<String> = std::iter::once("cycle".to_owned()).chain(names).collect();
     std::iter::once(head).chain(rows(states)).map(|row| row.join(",") + "\n").collect()
 }
 
-fn table(program: &FlatProgram, states: &[Vec<bool>]) -> Table {
+fn table(program: &FlatProgram, states: &[Vec<u64>]) -> Table {
     let names = program.declared().map(|id| Column::right(&program.variable(id).name)).collect();
     let mut table = Table::new(vec![vec![Column::right("scan")], names]);
     rows(states).for_each(|row| table.row(row));

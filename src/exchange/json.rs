@@ -102,14 +102,13 @@ fn scans(system: &System, trace: &ScanTrace) -> Value {
     let one = |(position, scan): (usize, &Scan)| {
         let name = |id: VarId| system.program.variable(id).name.clone();
         let values = |role| -> Map<String, Value> {
-            let end = scan
-                .end
-                .iter()
-                .flat_map(|end| system.program.with_role(role).map(|id| (name(id), Value::Bool(end.memory[id.0]))));
+            let end = scan.end.iter().flat_map(|end| {
+                system.program.with_role(role).map(|id| (name(id), Value::Bool(end.memory[id.0] == 1)))
+            });
             end.collect()
         };
         let inputs: Map<String, Value> =
-            scan.inputs.iter().map(|&(id, value)| (name(id), Value::Bool(value))).collect();
+            scan.inputs.iter().map(|&(id, value)| (name(id), Value::Bool(value == 1))).collect();
         let moves = scan.moves.iter().map(|m| &system.plant.components[m.component].transitions[m.transition].name);
         json!({
             "scan": position + 1,

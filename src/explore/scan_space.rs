@@ -49,7 +49,7 @@ pub struct ScanState {
     /// The marking of each plant component, as a position in its list of markings.
     pub plant: Vec<usize>,
     /// The values of all variables of the program; those of buffers mean nothing.
-    pub memory: Vec<bool>,
+    pub memory: Vec<u64>,
 }
 
 /// One scan that was computed.
@@ -101,18 +101,18 @@ impl<'s> ScanSpace<'s> {
     /// A state in plain form.
     #[must_use]
     pub fn unpack(&self, state: &[u64]) -> ScanState {
-        let mut memory = vec![false; self.system.program.variables.len()];
+        let mut memory = vec![0; self.system.program.variables.len()];
         for &(variable, field) in &self.variables {
-            memory[variable.0] = field.get(state) == 1;
+            memory[variable.0] = field.get(state) as u64;
         }
         ScanState { plant: self.components.iter().map(|field| field.get(state)).collect(), memory }
     }
 
     /// The value of a declared variable in a state.
     #[must_use]
-    pub fn value(&self, state: &[u64], variable: VarId) -> bool {
+    pub fn value(&self, state: &[u64], variable: VarId) -> u64 {
         // Declared variables come first in a program, in this order.
-        self.variables[variable.0].1.get(state) == 1
+        self.variables[variable.0].1.get(state) as u64
     }
 
     /// The system at power-on, before the first scan. It is no scan state.
@@ -127,7 +127,7 @@ impl<'s> ScanSpace<'s> {
     fn pack(&self, plant: &[usize], machine: &Machine<'_>, state: &mut [u64]) {
         state.fill(0);
         self.components.iter().zip(plant).for_each(|(field, &marking)| field.set(state, marking));
-        self.variables.iter().for_each(|&(variable, field)| field.set(state, usize::from(machine.value(variable))));
+        self.variables.iter().for_each(|&(variable, field)| field.set(state, machine.value(variable) as usize));
     }
 
     /// For each component, the markings it can be in when the next scan begins.
@@ -158,7 +158,7 @@ impl<'s> ScanSpace<'s> {
                     component.markings[marking].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
                 }
                 for (bit, &input) in self.free_inputs.iter().rev().enumerate() {
-                    machine.set(input, free >> bit & 1 == 1);
+                    machine.set(input, free >> bit & 1);
                 }
                 let result = machine.scan();
                 self.pack(&plant, &machine, &mut state);

@@ -2,8 +2,8 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::{FlatProgram, Instruction};
-use crate::semantics::{Condition, Operand, Role, VarId};
+use super::{Condition, FlatProgram, Instruction, Target};
+use crate::semantics::{Role, VarId};
 
 impl FlatProgram {
     /// The variables whose values at the beginning of a scan can make a difference in it or after it, as positions.
@@ -37,7 +37,7 @@ impl FlatProgram {
         while let Some(line) = work.pop() {
             let (Some(code), Some(written)) = (self.code.get(line), &before[line]) else { continue };
             let mut after = written.clone();
-            if let Instruction::Store { variable, .. } = code.instruction {
+            if let Instruction::Store { target: Target::Variable(variable), .. } = code.instruction {
                 after.insert(variable.0);
             }
             for next in successors(line, code.instruction).into_iter().flatten() {
@@ -55,16 +55,23 @@ impl FlatProgram {
     }
 }
 
-/// The variable an instruction reads. Setting and resetting keep the old value if the current result is FALSE.
+/// The variables whose old values an instruction may need. Setting and resetting keep the old value if the current result
+/// is FALSE.
 fn reads(instruction: Instruction) -> impl Iterator<Item = VarId> {
-    match instruction {
-        Instruction::Load { operand: Operand::Variable(id), .. }
-        | Instruction::Combine { operand: Operand::Variable(id), .. }
-        | Instruction::Set(id)
-        | Instruction::Reset(id) => Some(id),
+    let kept = if let Instruction::Set(kept) | Instruction::Reset(kept) = instruction { Some(kept) } else { None };
+    let index = match instruction.writes() {
+        Some(Target::Element(element)) => Some(Target::Variable(element.index)),
         _ => None,
+    };
+    instruction.reads().into_iter().chain(kept).chain(index).flat_map(variables)
+}
+
+/// The variables that reading an operand may look at.
+fn variables(target: Target) -> Vec<VarId> {
+    match target {
+        Target::Variable(variable) => vec![variable],
+        Target::Element(element) => element.all().chain([element.index]).collect(),
     }
-    .into_iter()
 }
 
 /// The lines control can go to.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{FlatProgram, Instruction, Line};
-use crate::semantics::{Action, Operand, Program, Role, Statement, VarId, Variable};
+use super::{FlatProgram, Function, Instruction, Line, Operand, Target, Variable};
+use crate::semantics::{self, Action, Program, Role, Statement, Type, VarId};
 use crate::source::Span;
 use crate::syntax::ast::key;
 
@@ -13,7 +13,15 @@ use crate::syntax::ast::key;
 /// nesting, and one variable `B` for all, since its value is used at once.
 #[must_use]
 pub fn flatten(program: &Program) -> FlatProgram {
-    let mut lowering = Lowering { variables: program.variables.clone(), code: Vec::new(), buffers: Buffers::default() };
+    let variables = program.variables.iter().map(|variable| Variable {
+        name: variable.name.clone(),
+        role: variable.role,
+        ty: Type::BOOL,
+        bits: 1,
+        initial: u64::from(variable.initial),
+        span: variable.span,
+    });
+    let mut lowering = Lowering { variables: variables.collect(), code: Vec::new(), buffers: Buffers::default() };
     let mut starts = Vec::with_capacity(program.body.len() + 1);
     for statement in &program.body {
         starts.push(lowering.code.len());
@@ -51,7 +59,7 @@ impl Lowering {
     fn statement(&mut self, statement: &Statement, depth: usize) {
         match &statement.action {
             // Jumps stand on the outermost level only; their targets become lines at the end.
-            &Action::Plain(instruction) => self.emit(instruction, statement.span),
+            Action::Plain(plain) => self.emit(instruction(plain), statement.span),
             Action::Defer { function, negated, first, body, close } => {
                 let left = match self.buffers.left.get(depth) {
                     Some(&left) => left,
@@ -63,17 +71,41 @@ impl Lowering {
                 };
                 let right = self.buffers.right.unwrap_or_else(|| self.fresh());
                 self.buffers.right = Some(right);
-                self.emit(Instruction::Store { negated: false, variable: left }, statement.span);
+                self.emit(
+                    Instruction::Store { ty: Type::BOOL, negated: false, target: Target::Variable(left) },
+                    statement.span,
+                );
                 if let Some((operand, span)) = *first {
-                    self.emit(Instruction::Load { negated: false, operand }, span);
+                    self.emit(
+                        Instruction::Load { ty: Type::BOOL, negated: false, operand: self::operand(operand) },
+                        span,
+                    );
                 }
                 for inner in body {
                     self.statement(inner, depth + 1);
                 }
-                let operand = Operand::Variable(right);
-                self.emit(Instruction::Store { negated: false, variable: right }, *close);
-                self.emit(Instruction::Load { negated: false, operand: Operand::Variable(left) }, *close);
-                self.emit(Instruction::Combine { function: *function, negated: *negated, operand }, *close);
+                let operand = Operand::Place(Target::Variable(right));
+                self.emit(
+                    Instruction::Store { ty: Type::BOOL, negated: false, target: Target::Variable(right) },
+                    *close,
+                );
+                self.emit(
+                    Instruction::Load {
+                        ty: Type::BOOL,
+                        negated: false,
+                        operand: Operand::Place(Target::Variable(left)),
+                    },
+                    *close,
+                );
+                self.emit(
+                    Instruction::Combine {
+                        function: self::function(*function),
+                        ty: Type::BOOL,
+                        negated: *negated,
+                        operand,
+                    },
+                    *close,
+                );
             }
         }
     }
@@ -84,7 +116,41 @@ impl Lowering {
         let letters =
             |round: usize| ('A'..='Z').map(move |c| if round == 0 { c.to_string() } else { format!("{c}{round}") });
         let name = (0..).flat_map(letters).find(|name| !taken.contains(name)).unwrap_or_default();
-        self.variables.push(Variable { name, role: Role::Buffer, initial: false, span: None });
+        self.variables.push(Variable { name, role: Role::Buffer, ty: Type::BOOL, bits: 1, initial: 0, span: None });
         VarId(self.variables.len() - 1)
+    }
+}
+
+fn instruction(plain: &semantics::Instruction) -> Instruction {
+    let ty = Type::BOOL;
+    match *plain {
+        semantics::Instruction::Load { negated, operand } => {
+            Instruction::Load { ty, negated, operand: self::operand(operand) }
+        }
+        semantics::Instruction::Store { negated, variable } => {
+            Instruction::Store { ty, negated, target: Target::Variable(variable) }
+        }
+        semantics::Instruction::Set(variable) => Instruction::Set(Target::Variable(variable)),
+        semantics::Instruction::Reset(variable) => Instruction::Reset(Target::Variable(variable)),
+        semantics::Instruction::Complement => Instruction::Complement(ty),
+        semantics::Instruction::Combine { function, negated, operand } => {
+            Instruction::Combine { function: self::function(function), ty, negated, operand: self::operand(operand) }
+        }
+        semantics::Instruction::Jump { condition, target } => Instruction::Jump { condition, target },
+    }
+}
+
+fn operand(operand: semantics::Operand) -> Operand {
+    match operand {
+        semantics::Operand::Variable(variable) => Operand::Place(Target::Variable(variable)),
+        semantics::Operand::Constant(value) => Operand::Constant(u64::from(value)),
+    }
+}
+
+fn function(function: semantics::Function) -> Function {
+    match function {
+        semantics::Function::And => Function::And,
+        semantics::Function::Or => Function::Or,
+        semantics::Function::Xor => Function::Xor,
     }
 }

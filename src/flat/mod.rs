@@ -1,17 +1,19 @@
 //! Flat code: the seed paper's *Env* and *Code* (Heiner and Menzel, section 2.2).
 //!
-//! One strictly sequential list of instructions on single bits: parentheses are buffered in fresh variables, labels are
-//! line numbers, a return is a jump to the end. Both the interpreter and the net are made from it.
+//! One strictly sequential list of typed instructions: parentheses are buffered in fresh variables, labels are line
+//! numbers, a return is a jump to the end. Both the interpreter and the net are made from it.
 
 mod carried;
+mod instruction;
 mod lower;
 mod print;
 
 pub use lower::flatten;
+pub use print::literal;
 
-use crate::semantics::{Role, VarId, Variable};
+pub use instruction::{Condition, Element, Function, Hazard, Instruction, Operand, Target};
 
-pub use crate::semantics::Instruction;
+use crate::semantics::{Role, Type, VarId};
 use crate::source::Span;
 
 /// A flat program.
@@ -25,6 +27,24 @@ pub struct FlatProgram {
     pub variables: Vec<Variable>,
     /// The instructions in their order.
     pub code: Vec<Line>,
+}
+
+/// A variable of an elementary type. Arrays, structures and instances are many of them, each with a name of its own like
+/// `pump.T.Q` or `level[3]`.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// The name as it was declared.
+    pub name: String,
+    /// What it is for.
+    pub role: Role,
+    /// Its type.
+    pub ty: Type,
+    /// How many bits of its pattern are stored: those above are always 0. At least 1, at most the type's width.
+    pub bits: u32,
+    /// Its value at power-on, as a pattern of its type.
+    pub initial: u64,
+    /// Its declaration, if it has one.
+    pub span: Option<Span>,
 }
 
 /// One line of flat code.

@@ -1,7 +1,7 @@
 //! Flat code as text.
 
-use super::{FlatProgram, Instruction};
-use crate::semantics::{Function, Operand, Role};
+use super::{FlatProgram, Instruction, Operand, Target};
+use crate::semantics::{Kind, Role, Type};
 use crate::source::Source;
 
 impl FlatProgram {
@@ -9,31 +9,46 @@ impl FlatProgram {
     #[must_use]
     pub fn text(&self, instruction: Instruction) -> String {
         let n = |negated: bool| if negated { "N" } else { "" };
-        let name = |variable| self.variable(variable).name.clone();
-        let value = |operand| match operand {
-            Operand::Variable(variable) => name(variable),
-            Operand::Constant(value) => if value { "TRUE" } else { "FALSE" }.to_owned(),
+        let name = |target| self.target_text(target);
+        let value = |operand, ty| match operand {
+            Operand::Place(target) => name(target),
+            Operand::Constant(pattern) => literal(ty, pattern),
         };
         let (operator, operand) = match instruction {
-            Instruction::Load { negated, operand } => (format!("LD{}", n(negated)), value(operand)),
-            Instruction::Store { negated, variable } => (format!("ST{}", n(negated)), name(variable)),
-            Instruction::Set(variable) => ("S".to_owned(), name(variable)),
-            Instruction::Reset(variable) => ("R".to_owned(), name(variable)),
-            Instruction::Complement => return "NOT".to_owned(),
-            Instruction::Combine { function, negated, operand } => {
-                let word = match function {
-                    Function::And => "AND",
-                    Function::Or => "OR",
-                    Function::Xor => "XOR",
-                };
-                (format!("{word}{}", n(negated)), value(operand))
+            Instruction::Load { ty, negated, operand } => (format!("LD{}", n(negated)), value(operand, ty)),
+            Instruction::Store { negated, target, .. } => (format!("ST{}", n(negated)), name(target)),
+            Instruction::Set(target) => ("S".to_owned(), name(target)),
+            Instruction::Reset(target) => ("R".to_owned(), name(target)),
+            Instruction::Complement(_) => return "NOT".to_owned(),
+            Instruction::Combine { function, ty, negated, operand } => {
+                (format!("{}{}", function.word(), n(negated)), value(operand, ty))
             }
+            Instruction::Convert { from, to } => return format!("{from}_TO_{to}"),
+            Instruction::Bound { lower, upper, .. } => ("BOUND".to_owned(), format!("{lower}..{upper}")),
             Instruction::Jump { condition, target } => {
                 let target = if target == self.end() { "End".to_owned() } else { (target + 1).to_string() };
                 (format!("JMP{}", condition.suffix()), target)
             }
         };
         format!("{operator:<5} {operand}")
+    }
+
+    /// A variable, or an element of an array as `level[A]`.
+    fn target_text(&self, target: Target) -> String {
+        match target {
+            Target::Variable(variable) => self.variable(variable).name.clone(),
+            Target::Element(element) => {
+                let first = &self.variable(element.first).name;
+                let index = &self.variable(element.index).name;
+                match first.rsplit_once('[') {
+                    Some((array, rest)) => {
+                        let member = rest.split_once(']').map_or("", |(_, member)| member);
+                        format!("{array}[{index}]{member}")
+                    }
+                    None => format!("{first}[{index}]"),
+                }
+            }
+        }
     }
 
     /// The whole code: line number, instruction, and the source line it comes from, each source line once; then the
@@ -57,5 +72,16 @@ impl FlatProgram {
             out += &format!("\nbuffers of parentheses: {}\n", buffers.join(", "));
         }
         out
+    }
+}
+
+/// A value as a literal of its type: `TRUE`, `-5`, `16#FF`, `T#200ms`.
+#[must_use]
+pub fn literal(ty: Type, pattern: u64) -> String {
+    match ty.kind {
+        Kind::Bits if ty.is_bool() => if pattern & 1 == 1 { "TRUE" } else { "FALSE" }.to_owned(),
+        Kind::Bits => format!("16#{:X}", pattern & ty.mask()),
+        Kind::Time => format!("T#{}ms", ty.number(pattern)),
+        Kind::Signed | Kind::Unsigned => ty.number(pattern).to_string(),
     }
 }

@@ -1,8 +1,11 @@
 //! The operational semantics (seed paper, section 2.3): states (i, m, a) of line, memory and current result, and one
 //! transition for each instruction. Everything else is held to this.
 
-use crate::flat::{FlatProgram, Instruction};
-use crate::semantics::{Condition, Function, Operand, VarId};
+mod arithmetic;
+
+use crate::flat::{Condition, FlatProgram, Function, Hazard, Instruction, Operand, Target};
+use crate::semantics::{Type, VarId};
+use arithmetic::{combine, convert};
 
 /// A machine that executes flat code, one instruction or one scan at a time.
 #[derive(Clone, Debug)]
@@ -10,10 +13,12 @@ pub struct Machine<'p> {
     program: &'p FlatProgram,
     /// i: the line to be executed next, from 0.
     line: usize,
-    /// m: the value of each variable.
-    memory: Vec<bool>,
+    /// m: the value of each variable, as a pattern of its type.
+    memory: Vec<u64>,
     /// a: the current result, called accumulator in the paper.
-    result: bool,
+    result: u64,
+    /// What happened in this scan that should not, with the line (from 0), in the order of time.
+    hazards: Vec<(usize, Hazard)>,
 }
 
 /// Why a scan has no end state.
@@ -33,7 +38,7 @@ impl<'p> Machine<'p> {
     #[must_use]
     pub fn new(program: &'p FlatProgram) -> Self {
         let memory = program.variables.iter().map(|variable| variable.initial).collect();
-        Self { program, line: 0, memory, result: false }
+        Self { program, line: 0, memory, result: 0, hazards: Vec::new() }
     }
 
     /// The line to be executed next, from 0.
@@ -42,27 +47,27 @@ impl<'p> Machine<'p> {
         self.line
     }
 
-    /// The current result.
+    /// The current result. It means as many bits as the instruction before gave it.
     #[must_use]
-    pub fn result(&self) -> bool {
+    pub fn result(&self) -> u64 {
         self.result
     }
 
     /// The value of a variable.
     #[must_use]
-    pub fn value(&self, variable: VarId) -> bool {
+    pub fn value(&self, variable: VarId) -> u64 {
         self.memory[variable.0]
     }
 
     /// Gives a variable a value, as the copying of inputs does.
-    pub fn set(&mut self, variable: VarId, value: bool) {
+    pub fn set(&mut self, variable: VarId, value: u64) {
         self.memory[variable.0] = value;
     }
 
     /// Gives every variable a value at once; the current result becomes 0.
-    pub fn restore(&mut self, memory: &[bool]) {
+    pub fn restore(&mut self, memory: &[u64]) {
         self.memory.copy_from_slice(memory);
-        self.result = false;
+        self.result = 0;
     }
 
     /// Whether the scan has ended.
@@ -74,39 +79,81 @@ impl<'p> Machine<'p> {
     /// Goes to the first line.
     pub fn begin_scan(&mut self) {
         self.line = 0;
+        self.hazards.clear();
     }
 
-    /// Executes one instruction; nothing at the end.
+    /// The hazards that [`Machine::scan`] met in its last scan, each with its line (from 0), in the order of time.
+    #[must_use]
+    pub fn hazards(&self) -> &[(usize, Hazard)] {
+        &self.hazards
+    }
+
+    /// Executes one instruction and keeps the hazard it meets.
+    #[inline(always)]
+    fn run(&mut self) {
+        let line = self.line;
+        if let Some(hazard) = self.step() {
+            self.hazards.push((line, hazard));
+        }
+    }
+
+    /// Executes one instruction; nothing at the end. Says which hazard it met.
     // Scans spend their time here; inlined into their loop it takes half of it.
     #[inline(always)]
-    pub fn step(&mut self) {
-        let Some(line) = self.program.code.get(self.line) else { return };
+    pub fn step(&mut self) -> Option<Hazard> {
+        let line = self.program.code.get(self.line)?;
         self.line += 1;
         match line.instruction {
-            Instruction::Load { negated, operand } => self.result = self.operand(operand) != negated,
-            Instruction::Store { negated, variable } => self.memory[variable.0] = self.result != negated,
-            Instruction::Set(variable) => self.memory[variable.0] |= self.result,
-            Instruction::Reset(variable) => self.memory[variable.0] &= !self.result,
-            Instruction::Complement => self.result = !self.result,
-            Instruction::Combine { function, negated, operand } => {
-                let operand = self.operand(operand) != negated;
-                self.result = match function {
-                    Function::And => self.result & operand,
-                    Function::Or => self.result | operand,
-                    Function::Xor => self.result ^ operand,
+            Instruction::Load { ty, negated, operand } => self.result = complement(ty, negated, self.operand(operand)),
+            Instruction::Store { ty, negated, target } => {
+                let variable = self.variable(target);
+                self.memory[variable.0] = complement(ty, negated, self.result);
+            }
+            Instruction::Set(target) => {
+                let variable = self.variable(target);
+                self.memory[variable.0] |= self.result;
+            }
+            Instruction::Reset(target) => {
+                let variable = self.variable(target);
+                self.memory[variable.0] &= !self.result;
+            }
+            Instruction::Complement(ty) => self.result = complement(ty, true, self.result),
+            Instruction::Combine { function, ty, negated, operand } => {
+                let operand = complement(ty, negated, self.operand(operand));
+                let (result, hazard) = match function {
+                    Function::And => (self.result & operand, None),
+                    Function::Or => (self.result | operand, None),
+                    Function::Xor => (self.result ^ operand, None),
+                    _ => combine(function, ty, self.result, operand),
                 };
+                self.result = result;
+                return hazard;
+            }
+            Instruction::Convert { from, to } => {
+                let (result, hazard) = convert(from, to, self.result);
+                self.result = result;
+                return hazard;
+            }
+            Instruction::Bound { ty, lower, upper, hazard } => {
+                if !(lower..=upper).contains(&ty.number(self.result)) {
+                    if hazard == Hazard::Index {
+                        self.result = ty.pattern(lower);
+                    }
+                    return Some(hazard);
+                }
             }
             Instruction::Jump { condition, target } => {
                 let jumps = match condition {
                     Condition::Always => true,
-                    Condition::IfTrue => self.result,
-                    Condition::IfFalse => !self.result,
+                    Condition::IfTrue => self.result == 1,
+                    Condition::IfFalse => self.result == 0,
                 };
                 if jumps {
                     self.line = target;
                 }
             }
         }
+        None
     }
 
     /// Executes a whole scan from the first line. The inputs must have been set.
@@ -120,7 +167,7 @@ impl<'p> Machine<'p> {
             if self.at_end() {
                 return Ok(());
             }
-            self.step();
+            self.run();
         }
         self.scan_with_loops()
     }
@@ -138,7 +185,7 @@ impl<'p> Machine<'p> {
                 earlier.clone_from(self);
                 renew *= 2;
             }
-            self.step();
+            self.run();
             steps += 1;
             if self.same_state(&earlier) {
                 return Err(Fault::Endless);
@@ -156,12 +203,24 @@ impl<'p> Machine<'p> {
         self.line == other.line && self.result == other.result && self.memory == other.memory
     }
 
-    fn operand(&self, operand: Operand) -> bool {
+    fn operand(&self, operand: Operand) -> u64 {
         match operand {
-            Operand::Variable(variable) => self.memory[variable.0],
-            Operand::Constant(value) => value,
+            Operand::Place(target) => self.memory[self.variable(target).0],
+            Operand::Constant(pattern) => pattern,
         }
     }
+
+    /// The variable that is meant now.
+    fn variable(&self, target: Target) -> VarId {
+        match target {
+            Target::Variable(variable) => variable,
+            Target::Element(element) => element.at(self.memory[element.index.0] as usize),
+        }
+    }
+}
+
+fn complement(ty: Type, negated: bool, value: u64) -> u64 {
+    if negated { !value & ty.mask() } else { value }
 }
 
 #[cfg(test)]

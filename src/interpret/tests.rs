@@ -16,16 +16,16 @@ fn program(body: &str) -> FlatProgram {
 }
 
 /// The output `q` after one scan for (a, x) = 00, 01, 10, 11, `q` being `before` at its beginning.
-fn table(body: &str, before: bool) -> [u8; 4] {
+fn table(body: &str, before: bool) -> [u64; 4] {
     let program = program(body);
     let [a, x, q] = ["a", "x", "q"].map(|name| program.find(name).unwrap());
     [(false, false), (false, true), (true, false), (true, true)].map(|values| {
         let mut machine = Machine::new(&program);
-        machine.set(a, values.0);
-        machine.set(x, values.1);
-        machine.set(q, before);
+        machine.set(a, u64::from(values.0));
+        machine.set(x, u64::from(values.1));
+        machine.set(q, u64::from(before));
         machine.scan().unwrap();
-        u8::from(machine.value(q))
+        machine.value(q)
     })
 }
 

@@ -10,7 +10,7 @@ pub struct ScanValuation<'a>(pub &'a ScanSpace<'a>, pub &'a [u64]);
 
 impl Valuation for ScanValuation<'_> {
     fn variable(&self, variable: VarId) -> bool {
-        self.0.value(self.1, variable)
+        self.0.value(self.1, variable) == 1
     }
 
     fn is_marked(&self, _: PlaceId) -> bool {

@@ -6,6 +6,7 @@ mod control_flow;
 mod program;
 mod resolve;
 mod symbols;
+mod types;
 
 mod rule_constants_have_values;
 mod rule_constants_not_written;
@@ -30,6 +31,7 @@ mod rule_types_supported;
 mod testing;
 
 pub use program::{Action, Condition, Function, Instruction, Operand, Program, Role, Statement, VarId, Variable};
+pub use types::{Kind, Type};
 
 use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::syntax::ast::{Pou, PouKind, Unit};

@@ -1,7 +1,7 @@
 //! `AND x`, `OR x`, `XOR x` and their N forms: one transition for each pair of current result and operand.
 
 use super::weaver::{Subnet, VALUES};
-use crate::semantics::{Function, Operand};
+use crate::flat::{Function, Operand};
 
 /// The function's table: its value for (current result, operand) = 00, 01, 10, 11.
 fn table(function: Function) -> [bool; 4] {
@@ -9,6 +9,7 @@ fn table(function: Function) -> [bool; 4] {
         Function::And => [false, false, false, true],
         Function::Or => [false, true, true, true],
         Function::Xor => [false, true, true, false],
+        _ => [false; 4],
     }
 }
 

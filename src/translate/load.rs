@@ -1,7 +1,7 @@
 //! `LD x`, `LDN x`: the current result takes the operand's value.
 
 use super::weaver::{Subnet, VALUES};
-use crate::semantics::Operand;
+use crate::flat::Operand;
 
 pub fn translate(subnet: &mut Subnet<'_>, negated: bool, operand: Operand) {
     let result = subnet.result();

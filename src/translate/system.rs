@@ -6,7 +6,7 @@ use super::plant::{Component, Plant};
 use super::provenance::{Part, PlaceRole, TransitionRole};
 use super::weaver::{Subnet, VALUES, Weaver};
 use super::{combine, complement, jump, load, set_reset, store};
-use crate::flat::{FlatProgram, Instruction};
+use crate::flat::{FlatProgram, Instruction, Target};
 use crate::net::{Arcs, Net, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
 
@@ -73,7 +73,7 @@ impl System {
 /// The bits of the program and its control places, one for each line and `End`.
 fn user_places(weaver: &mut Weaver, program: &FlatProgram) -> Vec<PlaceId> {
     for (i, variable) in program.variables.iter().enumerate() {
-        weaver.add_variable(VarId(i), &variable.name, variable.initial);
+        weaver.add_variable(VarId(i), &variable.name, variable.initial == 1);
     }
     // An apostrophe is in no IL name, so this one is free if `CR` is not.
     let taken = program.variables.iter().any(|variable| variable.name == "CR");
@@ -89,13 +89,18 @@ fn user_places(weaver: &mut Weaver, program: &FlatProgram) -> Vec<PlaceId> {
 /// The subnet of an instruction (*Compute* in the seed paper, section 3.3).
 fn instruction(subnet: &mut Subnet<'_>, instruction: Instruction) {
     match instruction {
-        Instruction::Load { negated, operand } => load::translate(subnet, negated, operand),
-        Instruction::Store { negated, variable } => store::translate(subnet, negated, variable),
-        Instruction::Set(variable) => set_reset::translate(subnet, variable, true),
-        Instruction::Reset(variable) => set_reset::translate(subnet, variable, false),
-        Instruction::Complement => complement::translate(subnet),
-        Instruction::Combine { function, negated, operand } => combine::translate(subnet, function, negated, operand),
+        Instruction::Load { negated, operand, .. } => load::translate(subnet, negated, operand),
+        Instruction::Store { negated, target: Target::Variable(variable), .. } => {
+            store::translate(subnet, negated, variable);
+        }
+        Instruction::Set(Target::Variable(variable)) => set_reset::translate(subnet, variable, true),
+        Instruction::Reset(Target::Variable(variable)) => set_reset::translate(subnet, variable, false),
+        Instruction::Complement(_) => complement::translate(subnet),
+        Instruction::Combine { function, negated, operand, .. } => {
+            combine::translate(subnet, function, negated, operand);
+        }
         Instruction::Jump { condition, target } => jump::translate(subnet, condition, target),
+        _ => {}
     }
 }
 
@@ -139,7 +144,7 @@ fn sources(plant: &Plant, places: &[Vec<PlaceId>], input: VarId) -> Vec<(Option<
     giving
         .filter_map(|(place, &id)| {
             let &(_, value) = place.drives.iter().find(|&&(variable, _)| variable == input)?;
-            Some((Some((id, place.name.clone())), value))
+            Some((Some((id, place.name.clone())), value == 1))
         })
         .collect()
 }

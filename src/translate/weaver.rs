@@ -1,8 +1,9 @@
 //! What the subnets of all instructions are woven from: bits, control places, and steps between them.
 
 use super::provenance::{PlaceRole, TransitionRole};
+use crate::flat::{Operand, Target};
 use crate::net::{Arcs, Builder, Net, PlaceId, TransitionId};
-use crate::semantics::{Operand, VarId};
+use crate::semantics::VarId;
 
 /// Two complementary places, exactly one of them marked.
 #[derive(Clone, Debug)]
@@ -123,8 +124,9 @@ impl<'a> Subnet<'a> {
     /// The values an operand can have, each with the bit that must have it (none for a literal).
     pub fn readings(&self, operand: Operand) -> Vec<(bool, Option<Bit>)> {
         match operand {
-            Operand::Constant(value) => vec![(value, None)],
-            Operand::Variable(variable) => {
+            Operand::Constant(value) => vec![(value == 1, None)],
+            Operand::Place(Target::Element(_)) => Vec::new(),
+            Operand::Place(Target::Variable(variable)) => {
                 let bit = self.variable(variable);
                 [false, true].map(|value| (value, Some(bit.clone()))).into()
             }

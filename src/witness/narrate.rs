@@ -22,7 +22,7 @@ pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
     heads.extend(groups.iter().map(head));
     heads.push(if has_moves { vec![Column::left("plant, before the scan")] } else { vec![] });
     let mut table = Table::new(heads);
-    let mut before: Vec<bool> = program.variables.iter().map(|variable| variable.initial).collect();
+    let mut before: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
     for (position, scan) in trace.scans.iter().enumerate() {
         let mut memory = before.clone();
         match &scan.end {
@@ -35,7 +35,7 @@ pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
         for &id in groups.iter().flatten() {
             let unknown = scan.end.is_none() && program.variable(id).role != Role::Input;
             let star = if memory[id.0] == before[id.0] { "" } else { "*" };
-            row.push(if unknown { "?".to_owned() } else { format!("{star}{}", u8::from(memory[id.0])) });
+            row.push(if unknown { "?".to_owned() } else { format!("{star}{}", memory[id.0]) });
         }
         if has_moves {
             row.push(moves(system, scan));
@@ -78,12 +78,12 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
         machine.step();
         let code = &program.code[line];
         let change = (0..program.variables.len()).map(VarId).find(|&id| before.value(id) != machine.value(id));
-        let change = change.map(|id| format!("{} = {}", program.variable(id).name, u8::from(machine.value(id))));
+        let change = change.map(|id| format!("{} = {}", program.variable(id).name, machine.value(id)));
         let from = source.line_of(code.span.start);
         table.row(vec![
             (line + 1).to_string(),
             program.text(code.instruction),
-            u8::from(machine.result()).to_string(),
+            machine.result().to_string(),
             change.unwrap_or_default(),
             from.to_string(),
             source.line_text(from).to_owned(),

@@ -60,8 +60,10 @@ impl<'s> Replay<'s> {
         })?;
         match self.system.transitions[transition.index()] {
             TransitionRole::Block => self.machine.begin_scan(),
-            TransitionRole::Copy { variable, value } => self.machine.set(variable, value),
-            TransitionRole::Line(line) if line == self.machine.line() => self.machine.step(),
+            TransitionRole::Copy { variable, value } => self.machine.set(variable, u64::from(value)),
+            TransitionRole::Line(line) if line == self.machine.line() => {
+                self.machine.step();
+            }
             TransitionRole::Line(line) => {
                 let expected = self.machine.line() + 1;
                 return Err(Disagreement(format!(
@@ -93,8 +95,8 @@ impl<'s> Replay<'s> {
         let machine_is_running = self.system.places.iter().zip(self.system.net.place_ids());
         for (&role, place) in machine_is_running {
             let expected = match role {
-                PlaceRole::Bit { variable, value } => self.machine.value(variable) == value,
-                PlaceRole::Result(value) => self.machine.result() == value,
+                PlaceRole::Bit { variable, value } => (self.machine.value(variable) == 1) == value,
+                PlaceRole::Result(value) => (self.machine.result() == 1) == value,
                 // Before the program runs, control is in the system program.
                 PlaceRole::Line(line) if self.marking.is_marked(place) => self.machine.line() == line,
                 _ => continue,
@@ -112,9 +114,9 @@ impl<'s> Replay<'s> {
 
     /// The values of the variables, as the net has them.
     #[must_use]
-    pub fn memory(&self) -> Vec<bool> {
+    pub fn memory(&self) -> Vec<u64> {
         let variables = 0..self.system.program.variables.len();
-        variables.map(|v| self.is_at(PlaceRole::Bit { variable: VarId(v), value: true })).collect()
+        variables.map(|v| u64::from(self.is_at(PlaceRole::Bit { variable: VarId(v), value: true }))).collect()
     }
 
     /// Whether a formula about one state holds now, as the net has it. `None` for a temporal formula.

@@ -22,7 +22,7 @@ pub struct Scan {
     /// What the plant did before it.
     pub moves: Vec<PlantMove>,
     /// The values copied to the inputs.
-    pub inputs: Vec<(VarId, bool)>,
+    pub inputs: Vec<(VarId, u64)>,
     /// The state at its end; `None` if it never ends.
     pub end: Option<ScanState>,
 }
@@ -42,7 +42,7 @@ pub struct PlantMove {
 #[must_use]
 pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<usize>, endless: bool) -> ScanTrace {
     let system = space.system();
-    let inputs = |memory: &dyn Fn(VarId) -> bool| -> Vec<(VarId, bool)> {
+    let inputs = |memory: &dyn Fn(VarId) -> u64| -> Vec<(VarId, u64)> {
         system.program.with_role(Role::Input).map(|input| (input, memory(input))).collect()
     };
     let mut before = space.power_on();
@@ -94,7 +94,7 @@ pub fn replay_scans(
         }
         replay.fire_only(|role| role == TransitionRole::Block).map_err(in_scan)?;
         for &(variable, value) in &scan.inputs {
-            replay.fire_only(|role| role == TransitionRole::Copy { variable, value }).map_err(in_scan)?;
+            replay.fire_only(|role| role == TransitionRole::Copy { variable, value: value == 1 }).map_err(in_scan)?;
         }
         let mut seen = BTreeSet::new();
         while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {

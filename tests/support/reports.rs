@@ -45,7 +45,7 @@ pub fn counterexample<'r>(report: &'r Report, name: &str) -> &'r ScanTrace {
 /// A trace with a row for each scan: the values of these variables at its end, 0 or 1.
 pub fn values(system: &System, trace: &ScanTrace, names: &[&str]) -> Vec<String> {
     let ids: Vec<_> = names.iter().map(|name| system.program.find(name).unwrap_or_else(|| panic!("{name}"))).collect();
-    let row = |memory: &[bool]| ids.iter().map(|id| if memory[id.0] { '1' } else { '0' }).collect();
+    let row = |memory: &[u64]| ids.iter().map(|id| if memory[id.0] == 1 { '1' } else { '0' }).collect();
     trace.scans.iter().map(|scan| row(&scan.end.as_ref().expect("the scan ends").memory)).collect()
 }
 

@@ -26,7 +26,7 @@ pub struct PlantPlace {
     /// Whether it is marked at the beginning.
     pub marked: bool,
     /// The external values it stands for.
-    pub drives: Vec<(VarId, bool)>,
+    pub drives: Vec<(VarId, u64)>,
 }
 
 /// A transition of the plant. Places are positions in [`Component::places`].
@@ -41,7 +41,7 @@ pub struct PlantTransition {
     /// Places that must be marked.
     pub read: Vec<usize>,
     /// Values that outputs must have.
-    pub tests: Vec<(VarId, bool)>,
+    pub tests: Vec<(VarId, u64)>,
 }
 
 /// A reachable marking of a component.
@@ -50,7 +50,7 @@ pub struct LocalMarking {
     /// The marked places, ascending.
     pub marked: Vec<usize>,
     /// The external values: one for each input the component drives.
-    pub inputs: Vec<(VarId, bool)>,
+    pub inputs: Vec<(VarId, u64)>,
     /// Where its transitions lead, if the outputs they test have the right values.
     pub moves: Vec<Move>,
 }
@@ -74,7 +74,7 @@ impl Component {
     /// The markings it can come to from `from` by any number of moves while the outputs keep their values, each with the
     /// move that first led there; `from` itself comes first. Nearest first.
     #[must_use]
-    pub fn closure(&self, from: usize, output: impl Fn(VarId) -> bool) -> Vec<(usize, Option<(usize, Move)>)> {
+    pub fn closure(&self, from: usize, output: impl Fn(VarId) -> u64) -> Vec<(usize, Option<(usize, Move)>)> {
         let mut reached = vec![(from, None)];
         let mut seen = vec![false; self.markings.len()];
         seen[from] = true;
@@ -94,7 +94,7 @@ impl Component {
 
     /// The names of the transitions that lead from one marking to another, as few as possible.
     #[must_use]
-    pub fn path(&self, from: usize, to: usize, output: impl Fn(VarId) -> bool) -> Option<Vec<usize>> {
+    pub fn path(&self, from: usize, to: usize, output: impl Fn(VarId) -> u64) -> Option<Vec<usize>> {
         let closure = self.closure(from, output);
         let mut path = Vec::new();
         let mut at = to;
@@ -128,7 +128,7 @@ impl Component {
     ) {
         let ids = |list: &[usize]| list.iter().map(|&place| places[place]).collect::<Vec<_>>();
         for (position, transition) in self.transitions.iter().enumerate() {
-            let tests = transition.tests.iter().map(|&(output, value)| weaver.variable(output).place(value));
+            let tests = transition.tests.iter().map(|&(output, value)| weaver.variable(output).place(value == 1));
             let read = ids(&transition.read).into_iter().chain(blocking).chain(tests).collect();
             let arcs = Arcs { consume: ids(&transition.consume), produce: ids(&transition.produce), read };
             let role = TransitionRole::Plant { component: index, transition: position };

@@ -115,8 +115,8 @@ fn external_values(
     component: &Component,
     driven: &BTreeSet<VarId>,
     marked: &[usize],
-) -> Result<Vec<(VarId, bool)>, Ambiguity> {
-    let mut given: BTreeMap<VarId, (bool, usize)> = BTreeMap::new();
+) -> Result<Vec<(VarId, u64)>, Ambiguity> {
+    let mut given: BTreeMap<VarId, (u64, usize)> = BTreeMap::new();
     for &place in marked {
         for &(input, value) in &component.places[place].drives {
             if let Some((_, earlier)) = given.insert(input, (value, place)) {

@@ -16,13 +16,13 @@ use crate::translate::valuation;
 /// What a place of the net is to the program.
 enum Meaning {
     /// A place of the plant, with the external values it stands for.
-    Own(Vec<(VarId, bool)>),
+    Own(Vec<(VarId, u64)>),
     /// The program's outputs have these values.
-    Test(Vec<(VarId, bool)>),
+    Test(Vec<(VarId, u64)>),
 }
 
 impl Meaning {
-    fn values(&self) -> &[(VarId, bool)] {
+    fn values(&self) -> &[(VarId, u64)] {
         match self {
             Self::Own(values) | Self::Test(values) => values,
         }
@@ -101,7 +101,7 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
             return Err(unfit(message).help("name the place like `S1=1,O1=0`, or without `=` if it is internal"));
         }
     };
-    let mut values: Vec<(VarId, bool)> = Vec::new();
+    let mut values: Vec<(VarId, u64)> = Vec::new();
     for (written, value) in assignments {
         let visible = || program.with_role(Role::Input).chain(program.with_role(Role::Output));
         let Some(variable) = program.find(written) else {
@@ -124,12 +124,12 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
             let message = "a place cannot stand for inputs and outputs at once".to_owned();
             return Err(unfit(message).help("give the inputs a place, and read the outputs by another"));
         }
-        values.push((variable, value));
+        values.push((variable, u64::from(value)));
     }
     if values.first().is_none_or(|&(first, _)| program.variable(first).role == Role::Input) {
         return Ok(Meaning::Own(values));
     }
-    let is_so = |&(output, value): &(VarId, bool)| program.variable(output).initial == value;
+    let is_so = |&(output, value): &(VarId, u64)| program.variable(output).initial == value;
     if file.net.place(place).marked && !values.iter().all(is_so) {
         let message = format!("`{name}` is marked, but the program does not begin with these outputs");
         return Err(unfit(message).help("leave it unmarked: the program decides when it is marked"));
