@@ -6,6 +6,7 @@
 
 mod combine;
 mod complement;
+mod domain;
 mod jump;
 mod load;
 mod provenance;
@@ -17,6 +18,7 @@ mod weaver;
 
 pub mod plant;
 
+pub use domain::{Domain, Domains};
 pub use plant::Plant;
 pub use provenance::{Part, PlaceRole, TransitionRole};
 pub use system::System;

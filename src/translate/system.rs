@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::domain::{Domain, Domains};
 use super::plant::{Component, Plant};
 use super::provenance::{Part, PlaceRole, TransitionRole};
 use super::weaver::{Subnet, VALUES, Weaver};
@@ -17,6 +18,8 @@ pub struct System {
     pub program: FlatProgram,
     /// Its environment. Inputs no plant drives are free: they have any value in any scan.
     pub plant: Plant,
+    /// The values of free inputs, where they are not all of their type.
+    pub domains: Domains,
     /// The composed net, safe by construction.
     pub net: Net,
     /// What each place stands for.
@@ -28,9 +31,15 @@ pub struct System {
 }
 
 impl System {
-    /// Composes a program and its plant.
+    /// Composes a program and its plant; free inputs have any value of their types.
     #[must_use]
     pub fn new(program: FlatProgram, plant: Plant) -> Self {
+        Self::with_domains(program, plant, Domains::new())
+    }
+
+    /// Composes a program and its plant; free inputs have the values of their domains.
+    #[must_use]
+    pub fn with_domains(program: FlatProgram, plant: Plant, domains: Domains) -> Self {
         let mut weaver = Weaver::new(&program.name);
         let lines = user_places(&mut weaver, &program);
         for (line, code) in program.code.iter().enumerate() {
@@ -39,7 +48,7 @@ impl System {
         system_program(&mut weaver, &program, &plant, lines[0], lines[program.end()]);
         let (net, places, transitions) = weaver.build();
         let by_role = places.iter().copied().zip(net.place_ids()).collect();
-        Self { program, plant, net, places, transitions, by_role }
+        Self { program, plant, domains, net, places, transitions, by_role }
     }
 
     /// The place of a role that only one place has.
@@ -62,6 +71,12 @@ impl System {
     /// The inputs no plant drives.
     pub fn free_inputs(&self) -> impl Iterator<Item = VarId> {
         self.program.with_role(Role::Input).filter(|&input| self.plant.driver(input).is_none())
+    }
+
+    /// The values of a free input.
+    #[must_use]
+    pub fn domain(&self, input: VarId) -> Domain {
+        self.domains.get(&input).cloned().unwrap_or_else(|| Domain::all(self.program.variable(input).ty))
     }
 
     /// The transitions of a role.

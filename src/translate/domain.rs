@@ -1,0 +1,84 @@
+//! The values a free input can have.
+
+use std::collections::BTreeMap;
+
+use crate::semantics::{Type, VarId};
+
+/// Some values of a type, as patterns in ascending order of their numbers. Never empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Domain {
+    /// The type.
+    pub ty: Type,
+    /// Disjoint ranges of numbers, ascending, both ends included, with a gap between neighbours.
+    ranges: Vec<(i128, i128)>,
+}
+
+/// The domains of free inputs. An input that is not listed has every value of its type.
+pub type Domains = BTreeMap<VarId, Domain>;
+
+impl Domain {
+    /// Every value of a type.
+    #[must_use]
+    pub fn all(ty: Type) -> Self {
+        Self { ty, ranges: vec![(ty.least(), ty.greatest())] }
+    }
+
+    /// The numbers in any of these ranges (both ends included). `None` if there are none, or one is not of the type.
+    #[must_use]
+    pub fn new(ty: Type, mut ranges: Vec<(i128, i128)>) -> Option<Self> {
+        ranges.sort_unstable();
+        let mut joined: Vec<(i128, i128)> = Vec::with_capacity(ranges.len());
+        for (from, to) in ranges {
+            if from > to || !ty.holds(from) || !ty.holds(to) {
+                return None;
+            }
+            match joined.last_mut() {
+                Some(last) if from <= last.1 + 1 => last.1 = last.1.max(to),
+                _ => joined.push((from, to)),
+            }
+        }
+        (!joined.is_empty()).then_some(Self { ty, ranges: joined })
+    }
+
+    /// The ranges of numbers, ascending, both ends included.
+    #[must_use]
+    pub fn ranges(&self) -> &[(i128, i128)] {
+        &self.ranges
+    }
+
+    /// How many values there are.
+    #[must_use]
+    pub fn size(&self) -> u128 {
+        self.ranges.iter().map(|(from, to)| (to - from + 1) as u128).sum()
+    }
+
+    /// Whether a number is one of them.
+    #[must_use]
+    pub fn contains(&self, number: i128) -> bool {
+        self.ranges.iter().any(|&(from, to)| (from..=to).contains(&number))
+    }
+
+    /// The values as patterns.
+    pub fn patterns(&self) -> impl Iterator<Item = u64> + Clone {
+        let ty = self.ty;
+        self.ranges.iter().flat_map(move |&(from, to)| (from..=to).map(move |number| ty.pattern(number)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Domain;
+    use crate::semantics::Type;
+
+    #[test]
+    fn ranges_are_joined_and_must_fit() {
+        let sint = Type::named("SINT").unwrap_or(Type::BOOL);
+        let domain = Domain::new(sint, vec![(3, 5), (-1, 0), (4, 7), (8, 8)]).unwrap_or(Domain::all(sint));
+        assert_eq!(domain.ranges(), [(-1, 0), (3, 8)]);
+        assert_eq!(domain.size(), 8);
+        assert_eq!(domain.patterns().collect::<Vec<_>>(), [0xFF, 0, 3, 4, 5, 6, 7, 8]);
+        assert_eq!(Domain::new(sint, vec![(0, 128)]), None);
+        assert_eq!(Domain::new(sint, vec![]), None);
+        assert_eq!(Domain::all(sint).size(), 256);
+    }
+}
