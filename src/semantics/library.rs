@@ -44,3 +44,25 @@ pub fn unit() -> &'static Unit {
 pub const CLOCK: &str = "CLOCK";
 /// The variable of a timer that says whether its clock runs.
 pub const RUNNING: &str = "RUNNING";
+
+#[cfg(test)]
+mod tests {
+    use super::text;
+    use crate::semantics::check;
+    use crate::source::Source;
+    use crate::syntax::parse;
+
+    #[test]
+    fn the_library_is_right() {
+        for (unit, name) in text().split_inclusive("END_FUNCTION_BLOCK").map(|unit| (unit, &unit[..unit.len().min(40)]))
+        {
+            if unit.trim().is_empty() {
+                continue;
+            }
+            let (unit, errors) = parse(&Source::new("library", unit));
+            let (program, more) = check(&unit, errors.is_empty());
+            let more: Vec<_> = more.iter().filter(|d| !d.code.id().ends_with("221")).collect();
+            assert!(program.is_some() && more.is_empty(), "{name} {errors:?} {more:?}");
+        }
+    }
+}

@@ -118,12 +118,13 @@ fn type_spec(pair: Pair<'_, Rule>) -> Option<TypeSpec> {
     Some(match piece.as_rule() {
         Rule::array => {
             let (ranges, of): (Vec<_>, Vec<_>) = piece.into_inner().partition(|p| p.as_rule() == Rule::range);
-            let of = Box::new(type_spec(of.into_iter().next()?)?);
+            let of = Box::new(type_spec(of.into_iter().find(|p| p.as_rule() == Rule::type_spec)?)?);
             TypeSpec::Array { ranges: ranges.into_iter().filter_map(range).collect(), of, span: whole }
         }
         Rule::structure => {
             let span = first_word(&piece).span;
-            TypeSpec::Structure { members: piece.into_inner().map(declaration).collect(), span }
+            let members = piece.into_inner().filter(|p| p.as_rule() == Rule::declaration);
+            TypeSpec::Structure { members: members.map(declaration).collect(), span }
         }
         Rule::enumeration => TypeSpec::Enumeration(piece.into_inner().map(|value| name(&value)).collect()),
         Rule::subrange => {
