@@ -38,7 +38,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use function::Function;
 pub use library::{CLOCK, RUNNING, text as library_text};
@@ -116,10 +116,24 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
     diagnostics.sort_by_key(Diagnostic::span);
     diagnostics.dedup();
     if !clean || any_error(&diagnostics) {
+        // What is not used may be used where the errors are.
+        diagnostics.retain(|diagnostic| !is_about_use(diagnostic.code));
         return (None, diagnostics);
     }
     let globals = variables(&project.globals);
     (Some(Program { pous, entry, globals, interval }), diagnostics)
+}
+
+/// Whether a code is about something that is written and not used.
+fn is_about_use(code: Code) -> bool {
+    matches!(
+        code,
+        Code::VariableNotUsed
+            | Code::VariableNotWritten
+            | Code::OutputNotWritten
+            | Code::ResultNotUsed
+            | Code::LabelNotUsed
+    )
 }
 
 /// The one PROGRAM of the file; where there is none, the last function block or function that no other calls.
@@ -134,9 +148,9 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
         }));
         return Some(id);
     }
-    let is_called =
-        |id: PouId| own().any(|(other, _)| other != id && project.calls(other).iter().any(|(callee, _)| *callee == id));
-    let (id, pou) = own().filter(|(id, _)| !is_called(*id)).last().or_else(|| own().last())?;
+    let calls = own().flat_map(|(id, _)| project.calls(id).into_iter().filter(move |(callee, _)| *callee != id));
+    let called: BTreeSet<PouId> = calls.map(|(callee, _)| callee).collect();
+    let (id, pou) = own().filter(|(id, _)| !called.contains(id)).last().or_else(|| own().last())?;
     let message = format!("this file holds no program, so {} `{}` is checked by itself", pou.kind, pou.name.text);
     diagnostics.push(
         Diagnostic::new(Code::CheckedByItself, pou.name.span, message)
@@ -156,10 +170,10 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
 
 /// Units of the file that are not needed.
 fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
-    let others =
-        project.unit.pous.iter().enumerate().filter(|(i, pou)| {
-            !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
-        });
+    let needed: BTreeSet<PouId> = needed.iter().copied().collect();
+    let others = project.unit.pous.iter().enumerate().filter(move |(i, pou)| {
+        !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
+    });
     others.map(|(_, pou)| {
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
         Diagnostic::new(Code::PouNotChecked, pou.name.span, message)
