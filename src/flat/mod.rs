@@ -8,6 +8,8 @@ mod instruction;
 mod lower;
 mod narrow;
 mod print;
+#[cfg(test)]
+mod tests;
 
 pub use lower::{DEFAULT_SCAN_TIME, flatten, flatten_with};
 pub use print::literal;

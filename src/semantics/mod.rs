@@ -7,6 +7,7 @@ mod constant;
 mod control_flow;
 mod declare;
 mod effect;
+mod expansion;
 mod function;
 mod inference;
 mod interval;
@@ -121,7 +122,15 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
         return (None, diagnostics);
     }
     let globals = variables(&project.globals);
-    (Some(Program { pous, entry, globals, interval }), diagnostics)
+    let program = Program { pous, entry, globals, interval };
+    if let Some(what) = expansion::too_large(&program, &needed) {
+        let name = &project.pou(entry).name;
+        let message = format!("`{}` has {what} when its calls are written out", name.text);
+        let help = "every call is modelled by instructions of its own; check its parts one by one";
+        diagnostics.push(Diagnostic::new(Code::ProgramTooLarge, name.span, message).help(help));
+        return (None, diagnostics);
+    }
+    (Some(program), diagnostics)
 }
 
 /// Whether a code is about something that is written and not used.
