@@ -3,7 +3,8 @@
 
 mod support;
 
-use petril::explore::{Budget, MarkingSpace, ScanSpace, explore};
+use petril::explore::{Budget, Failure, MarkingSpace, ScanSpace, explore};
+use petril::interpret::Fault;
 use petril::net::TransitionId;
 use petril::translate::{System, TransitionRole};
 use petril::witness::{Disagreement, FiringTrace, ScanTrace, firing_trace, replay_firings, replay_scans, scan_trace};
@@ -74,7 +75,7 @@ fn a_scan_that_never_ends_cannot_be_claimed_to_end() {
         "PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\non: LD a\nST q\nJMPC on\nEND_PROGRAM";
     let system = system(text, &[]);
     let space = ScanSpace::new(&system);
-    let endless = scan_trace(&space, &[], None, true);
+    let endless = scan_trace(&space, &[], None, Some(Failure::Scan(Fault::Endless)));
     assert_eq!(replayed(&system, &endless), Ok(()));
     refused(&system, &endless, "in scan 1: it never ends", |trace| {
         trace.scans[0].end = Some(space.power_on());
@@ -142,7 +143,7 @@ proptest! {
         prop_assume!(!graph.is_empty());
         let path = graph.path_to(goal.index(graph.len()) as u32);
         let states: Vec<&[u64]> = path.iter().map(|&id| graph.state(id)).collect();
-        let mut trace = scan_trace(&space, &states, None, false);
+        let mut trace = scan_trace(&space, &states, None, None);
         prop_assert_eq!(replayed(&system, &trace), Ok(()));
         let scan = scan.index(trace.scans.len());
         let scan = &mut trace.scans[scan];

@@ -73,6 +73,7 @@ fn term(t: &petril::logic::Term, system: &System) -> petril::logic::Term {
     let of = |t: &Term| Box::new(term(t, system));
     match t {
         Term::Number(n) => Term::Number(*n),
+        Term::Variable(..) | Term::Bits { .. } => unreachable!("the programs have truth values only"),
         Term::Truth(f) => Term::Truth(Box::new(counterpart(f, system))),
         Term::Sum(a, b) => Term::Sum(of(a), of(b)),
         Term::Difference(a, b) => Term::Difference(of(a), of(b)),

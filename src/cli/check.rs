@@ -23,7 +23,8 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     let (system, source) = input::system(&arguments.program, &arguments.plant, console)?;
     let requirements = input::requirements(&arguments.require, &arguments.requirement, &system, view, console)?;
     let watcher = Watcher::new(&arguments.limits)?;
-    let options = Options { view, fair: arguments.fair, budget: arguments.limits.budget() };
+    let options =
+        Options { view, fair: arguments.fair, budget: arguments.limits.budget(), tolerated: Default::default() };
     let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
     watcher.finish();
     if arguments.json {

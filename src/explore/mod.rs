@@ -6,7 +6,9 @@
 mod behaviour;
 mod budget;
 mod components;
+mod free_inputs;
 mod graph;
+mod layout;
 mod marking_space;
 mod scan_space;
 mod search;
@@ -17,6 +19,7 @@ mod tarjan;
 pub use behaviour::{Behaviour, behaviour, unsafe_firing};
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
+pub use free_inputs::MAX_FAN_OUT;
 pub use graph::Graph;
 pub use marking_space::MarkingSpace;
 pub use scan_space::{ScanRun, ScanSpace, ScanState};

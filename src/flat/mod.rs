@@ -7,9 +7,13 @@ mod carried;
 mod instruction;
 mod lower;
 mod print;
+mod tolerated;
+mod value;
 
 pub use lower::flatten;
 pub use print::literal;
+pub use tolerated::Tolerated;
+pub use value::value_text;
 
 pub use instruction::{Condition, Element, Function, Hazard, Instruction, Operand, Target};
 

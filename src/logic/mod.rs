@@ -10,6 +10,7 @@ mod dag;
 mod evidence;
 mod formula;
 mod label;
+mod literal;
 mod parse;
 mod text;
 mod vacuity;

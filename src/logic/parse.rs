@@ -10,6 +10,7 @@ use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
 
 use super::formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+use super::literal;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{Source, Span};
 use crate::syntax::ast::key;
@@ -184,12 +185,15 @@ fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
 fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     let span = span(&pair);
     let text = pair.as_str();
-    let too_large = || {
-        Diagnostic::new(Code::RequirementSyntax, span, "this number is too large").help("numbers have up to 64 bits")
-    };
+    let refused = |message: String| Diagnostic::new(Code::RequirementSyntax, span, message);
+    let too_large = || refused("this number is too large".to_owned()).help("numbers have up to 64 bits");
     let expression = match pair.as_rule() {
         Rule::group => return pair.into_inner().next().map_or_else(|| Err(too_large()), |p| formula(p.into_inner())),
-        Rule::number => Expression::Number(text.parse().map_err(|_| too_large())?),
+        Rule::number if is_truth(text) => Expression::Truth(literal::number(text).map_err(refused)? == 1),
+        Rule::number => Expression::Number(literal::number(text).map_err(|message| {
+            let help = "numbers have up to 64 bits, like `-5`, `16#FF`, `INT#-5` or `T#1s500ms`";
+            refused(message).help(help)
+        })?),
         Rule::truth => Expression::Truth(text.eq_ignore_ascii_case("TRUE")),
         Rule::until => return until(pair),
         Rule::position => match pair.into_inner().last() {
@@ -203,9 +207,14 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
             let quoted = pair.into_inner().next().map(|p| p.as_str().trim_matches('"').to_owned()).unwrap_or_default();
             if rule == Rule::marked { Expression::Marked(quoted) } else { Expression::Enabled(quoted) }
         }
-        _ => Expression::Name(text.to_owned()),
+        _ => Expression::Name(text.split_whitespace().collect()),
     };
     Ok(Formula { expression, span })
+}
+
+/// Whether a literal is one of type `BOOL`, like `BOOL#1`.
+fn is_truth(literal: &str) -> bool {
+    literal.split_once('#').is_some_and(|(ty, _)| ty.eq_ignore_ascii_case("BOOL"))
 }
 
 fn until(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {

@@ -91,6 +91,9 @@ impl Term {
         };
         match self {
             Self::Number(number) => number.to_string(),
+            Self::Variable(variable, _) | Self::Bits { variable, .. } => {
+                system.program.variable(*variable).name.clone()
+            }
             Self::Truth(f) => f.set(system, Strength::Prefix),
             Self::Sum(a, b) => two(a, "+", b, Strength::Sum),
             Self::Difference(a, b) => two(a, "-", b, Strength::Sum),

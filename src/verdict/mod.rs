@@ -2,6 +2,8 @@
 
 mod assumptions;
 mod check;
+mod failing;
+mod hazards;
 mod scan_ends;
 mod views;
 

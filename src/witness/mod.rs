@@ -4,6 +4,7 @@
 //! The replay plays the token game of [`crate::net`] firing by firing and runs the interpreter beside it, instruction by
 //! instruction; net and interpreter must agree on every bit at every step, and with what the search claims.
 
+mod execute;
 mod firing_trace;
 mod narrate;
 mod replay;
@@ -13,5 +14,5 @@ mod table;
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
 pub use narrate::{firing_table, line_by_line, scan_table};
 pub use replay::{Disagreement, Replay};
-pub use scan_trace::{PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
+pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
 pub use table::{Column, Table};

@@ -127,9 +127,9 @@ impl<'s> Replay<'s> {
 }
 
 impl Valuation for Replay<'_> {
-    fn variable(&self, variable: VarId) -> bool {
+    fn value(&self, variable: VarId) -> u64 {
         debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
-        self.is_at(PlaceRole::Bit { variable, value: true })
+        u64::from(self.is_at(PlaceRole::Bit { variable, value: true }))
     }
 
     fn is_marked(&self, place: PlaceId) -> bool {

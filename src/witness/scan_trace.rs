@@ -2,8 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use super::execute::execute_scans;
 use super::replay::{Disagreement, Replay};
-use crate::explore::{ScanSpace, ScanState};
+use crate::explore::{Failure, ScanSpace, ScanState};
+use crate::flat::Hazard;
+use crate::logic::Bound;
 use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
 
@@ -25,6 +28,9 @@ pub struct Scan {
     pub inputs: Vec<(VarId, u64)>,
     /// The state at its end; `None` if it never ends.
     pub end: Option<ScanState>,
+    /// The error it meets, with the line (from 0). What comes after it in the scan, and the state at its end, are as if it
+    /// were tolerated.
+    pub hazard: Option<(usize, Hazard)>,
 }
 
 /// A firing of the plant.
@@ -38,9 +44,15 @@ pub struct PlantMove {
 
 /// The trace of packed scan states that follow one another, the first being one after the first scan.
 ///
-/// With `loop_start`, one more scan leads back to the state at that position. With `endless`, the trace goes on with a scan that never ends from its last state (from power-on if there is none).
+/// With `loop_start`, one more scan leads back to the state at that position. With `failing`, the trace goes on with a scan
+/// that fails in this way from its last state (from power-on if there is none).
 #[must_use]
-pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<usize>, endless: bool) -> ScanTrace {
+pub fn scan_trace(
+    space: &ScanSpace<'_>,
+    states: &[&[u64]],
+    loop_start: Option<usize>,
+    failing: Option<Failure>,
+) -> ScanTrace {
     let system = space.system();
     let inputs = |memory: &dyn Fn(VarId) -> u64| -> Vec<(VarId, u64)> {
         system.program.with_role(Role::Input).map(|input| (input, memory(input))).collect()
@@ -50,15 +62,21 @@ pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<u
     for state in states.iter().copied().chain(loop_start.map(|start| states[start])) {
         let end = space.unpack(state);
         let inputs = inputs(&|input| end.memory[input.0]);
-        scans.push(Scan { moves: moves(system, &before, &end.plant), inputs, end: Some(end.clone()) });
+        scans.push(Scan { moves: moves(system, &before, &end.plant), inputs, end: Some(end.clone()), hazard: None });
         before = end;
     }
-    if endless {
+    if failing.is_some() {
         let mut last = None;
         space.scans(&before, &mut |run| {
-            if run.end.is_err() && last.is_none() {
+            if run.end.err() == failing && last.is_none() {
                 let inputs = inputs(&|input| run.machine.value(input));
-                last = Some(Scan { moves: moves(system, &before, run.plant), inputs, end: None });
+                let memory = || (0..system.program.variables.len()).map(|id| run.machine.value(VarId(id))).collect();
+                let end = run.machine.at_end().then(|| ScanState { plant: run.plant.to_vec(), memory: memory() });
+                let hazard = match failing {
+                    Some(Failure::Hazard(line, hazard)) => Some((line, hazard)),
+                    _ => None,
+                };
+                last = Some(Scan { moves: moves(system, &before, run.plant), inputs, end, hazard });
             }
         });
         scans.extend(last);
@@ -76,14 +94,45 @@ fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove>
     paths.flatten().collect()
 }
 
-/// Replays a trace, and calls `at_end` at the end of each scan with its position.
+/// Whether a formula about one state holds now; `None` for a temporal formula.
+pub type Holds<'a> = &'a dyn Fn(&Bound) -> Option<bool>;
+
+/// Replays a trace, and calls `at_end` at the end of each scan with its position. A program that the net has in full is
+/// replayed on the net and in the interpreter, any other one in the interpreter alone.
 ///
 /// # Errors
 /// The trace is not one of the system, or `at_end` finds that it does not show what it should.
 pub fn replay_scans(
     system: &System,
     trace: &ScanTrace,
-    mut at_end: impl FnMut(usize, &Replay<'_>) -> Result<(), Disagreement>,
+    mut at_end: impl FnMut(usize, Holds<'_>) -> Result<(), Disagreement>,
+) -> Result<(), Disagreement> {
+    if is_on_net(system) {
+        replay_on_net(system, trace, &mut at_end)?;
+        execute_scans(system, trace, &mut |_, _| Ok(()))?;
+    } else {
+        execute_scans(system, trace, &mut at_end)?;
+    }
+    // Both ends have been compared with the replay, so they are the same if they say the same.
+    let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
+    match trace.loop_start {
+        Some(start) if start + 1 >= trace.scans.len() || end(start) != end(trace.scans.len() - 1) => {
+            Err(Disagreement("the lasso does not close".to_owned()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether the net does all that the program does.
+fn is_on_net(system: &System) -> bool {
+    system.program.variables.iter().all(|variable| variable.ty.is_bool()) && system.program.hazards().is_empty()
+}
+
+/// Replays a trace on the net, with the interpreter beside it.
+fn replay_on_net(
+    system: &System,
+    trace: &ScanTrace,
+    at_end: &mut dyn FnMut(usize, Holds<'_>) -> Result<(), Disagreement>,
 ) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
     let end_place = PlaceRole::Line(system.program.end());
@@ -107,17 +156,10 @@ pub fn replay_scans(
             return Err(in_scan(Disagreement("it never ends".to_owned())));
         }
         compare(system, &replay, end).map_err(in_scan)?;
-        at_end(position, &replay).map_err(in_scan)?;
+        at_end(position, &|formula| replay.holds(formula)).map_err(in_scan)?;
         replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
     }
-    // Both ends have been compared with the net, so they are the same if they say the same.
-    let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
-    match trace.loop_start {
-        Some(start) if start + 1 >= trace.scans.len() || end(start) != end(trace.scans.len() - 1) => {
-            Err(Disagreement("the lasso does not close".to_owned()))
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 /// The search's end state against the net's.

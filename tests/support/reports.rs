@@ -1,6 +1,7 @@
 //! Reports of systems for tests.
 
 use petril::explore::Budget;
+use petril::flat::Tolerated;
 use petril::logic::{View, bind, parse_requirements};
 use petril::source::Source;
 use petril::translate::System;
@@ -17,7 +18,7 @@ pub fn report(system: &System, requirements: &str) -> Report {
         (requirement, bound)
     });
     let bound: Vec<_> = bound.collect();
-    let options = Options { view: View::Scan, fair: false, budget: Budget::default() };
+    let options = Options { view: View::Scan, fair: false, budget: Budget::default(), tolerated: Tolerated::default() };
     check(system, &bound, options, &mut |_| None)
 }
 

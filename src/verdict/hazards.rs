@@ -1,0 +1,34 @@
+//! The checks that nothing goes wrong in a computation, made without asking: one for each kind of hazard the program's
+//! instructions can meet, unless it is tolerated.
+
+use super::failing::{Failing, failing_scan};
+use super::{Answer, Outcome};
+use crate::explore::{Failure, Graph, ScanSpace};
+use crate::flat::{FlatProgram, Hazard, Tolerated};
+
+/// The checks that are made of a program.
+pub fn checked(program: &FlatProgram, tolerated: Tolerated) -> impl Iterator<Item = Hazard> {
+    program.hazards().into_iter().filter(move |&hazard| !tolerated.allows(hazard))
+}
+
+/// A check with its outcome.
+pub fn answer(hazard: Hazard, outcome: Outcome) -> Answer {
+    let (sentence, formula) = match hazard {
+        Hazard::Overflow => ("No number is too large or too small for its type.", "AG !overflow"),
+        Hazard::DivisionByZero => ("No divisor is 0.", "AG !division-by-zero"),
+        Hazard::Index => ("Every index lies within its array.", "AG !index-outside"),
+        Hazard::Subrange => ("Every variable stays within its subrange.", "AG !subrange-left"),
+    };
+    Answer { name: hazard.to_string(), sentence: Some(sentence.to_owned()), formula: formula.to_owned(), outcome }
+}
+
+/// A check in the scan view: the search has met every scan there is before the first error.
+pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph, hazard: Hazard) -> Outcome {
+    let met = |failure: &Failure| matches!(failure, Failure::Hazard(_, met) if *met == hazard);
+    match failing_scan(space, graph, met) {
+        Failing::None if graph.is_complete() => Outcome::Holds { vacuous: None, witness: None },
+        Failing::None => Outcome::Unknown(super::failing::what_is_missing(graph)),
+        Failing::Shown(witness) => Outcome::Violated(witness),
+        Failing::Refuted(disagreement) => super::check::disagreed(&disagreement.to_string()),
+    }
+}
