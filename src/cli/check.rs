@@ -4,11 +4,13 @@ use std::process::ExitCode;
 
 use petril::exchange::json;
 use petril::logic;
+use petril::translate::System;
 use petril::verdict::{Options, Verdict, check};
 
 use super::args::{Check, View};
 use super::console::Console;
 use super::progress::Watcher;
+use super::requirements::Asked;
 use super::{Failure, Outcome, input, report};
 
 pub fn run(arguments: &Check, console: &Console) -> Outcome {
@@ -20,11 +22,19 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let (system, source) = input::system(&arguments.program, &arguments.plant, console)?;
-    let requirements = input::requirements(&arguments.require, &arguments.requirement, &system, view, console)?;
+    let (program, plant, source) = input::parts(&arguments.program, &arguments.plant, console)?;
+    let mut asked = Asked::read(arguments, console)?;
+    let domains = asked.domains(&program, &plant);
+    let system = System::with_domains(program, plant, domains);
+    let requirements = asked.requirements(&system, view, console)?;
     let watcher = Watcher::new(&arguments.limits)?;
-    let options =
-        Options { view, fair: arguments.fair, budget: arguments.limits.budget(), tolerated: Default::default() };
+    let options = Options {
+        view,
+        fair: arguments.fair,
+        budget: arguments.limits.budget(),
+        tolerated: arguments.meaning.tolerated(),
+        scan_time: arguments.meaning.scan_time,
+    };
     let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
     watcher.finish();
     if arguments.json {

@@ -1,4 +1,4 @@
-//! Files in: programs, plants, requirements.
+//! Files in: programs and plants.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -8,18 +8,17 @@ use std::path::Path;
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::exchange::{pnml, tina};
 use petril::flat::{FlatProgram, flatten};
-use petril::logic::{Bound, Requirement, View, bind, parse_formula, parse_requirements};
 use petril::net::Located;
 use petril::semantics;
 use petril::source::{NotText, Source, Span};
 use petril::syntax;
 use petril::translate::{Plant, System};
 
-use super::console::{Console, MAX_DIAGNOSTICS};
+use super::console::Console;
 use super::{Failure, reason};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
-const MAX_TEXT: u64 = 64 << 20;
+pub const MAX_TEXT: u64 = 64 << 20;
 const MAX_NET: u64 = 2 << 30;
 
 /// Reads a file as text. `-` is standard input.
@@ -94,8 +93,18 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
     }
 }
 
-/// A program in its plants.
+/// A program in its plants, free inputs having any value.
 pub fn system<P: AsRef<Path>>(path: &Path, plants: &[P], console: &Console) -> Result<(System, Source), Failure> {
+    let (flat, plant, source) = parts(path, plants, console)?;
+    Ok((System::new(flat, plant), source))
+}
+
+/// A program and its plants.
+pub fn parts<P: AsRef<Path>>(
+    path: &Path,
+    plants: &[P],
+    console: &Console,
+) -> Result<(FlatProgram, Plant, Source), Failure> {
     let program = program(path, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
@@ -109,56 +118,5 @@ pub fn system<P: AsRef<Path>>(path: &Path, plants: &[P], console: &Console) -> R
             failed = true;
         }
     }
-    if failed { Err(Failure::Reported) } else { Ok((System::new(flat, plant), source)) }
-}
-
-/// Reads the requirement files and formulas, and binds them.
-pub fn requirements(
-    files: &[impl AsRef<Path>],
-    formulas: &[String],
-    system: &System,
-    view: View,
-    console: &Console,
-) -> Result<Vec<(Requirement, Bound)>, Failure> {
-    let mut failed = false;
-    let mut texts = Vec::new();
-    for (i, formula) in formulas.iter().enumerate() {
-        let source = Source::new(format!("formula r{}", i + 1), formula.as_str());
-        texts.push(match parse_formula(&format!("r{}", i + 1), &source) {
-            Ok(requirement) => (vec![requirement], vec![], source),
-            Err(error) => (vec![], vec![error], source),
-        });
-    }
-    for file in files {
-        match source(file.as_ref(), MAX_TEXT, console) {
-            Ok(source) => {
-                let (requirements, diagnostics) = parse_requirements(&source);
-                texts.push((requirements, diagnostics, source));
-            }
-            Err(Failure::Reported) => failed = true,
-            Err(failure) => return Err(failure),
-        }
-    }
-    let mut bound: Vec<(Requirement, Bound)> = Vec::new();
-    for (requirements, mut diagnostics, source) in texts {
-        let others = bound.len();
-        for requirement in requirements {
-            if bound[..others].iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
-                let message = format!("a requirement named `{}` was given already", requirement.name);
-                let help = "give each a name of its own; the formulas of `-r` are named r1, r2, …";
-                diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message).help(help));
-            }
-            if diagnostics.len() >= MAX_DIAGNOSTICS {
-                break;
-            }
-            match bind(&requirement.formula, system, view) {
-                Ok(formula) => bound.push((requirement, formula)),
-                Err(errors) => diagnostics.extend(errors),
-            }
-        }
-        diagnostics.sort_by_key(Diagnostic::span);
-        console.diagnostics(&diagnostics, &source);
-        failed |= any_error(&diagnostics);
-    }
-    if failed { Err(Failure::Reported) } else { Ok(bound) }
+    if failed { Err(Failure::Reported) } else { Ok((flat, plant, source)) }
 }

@@ -8,10 +8,12 @@ mod console;
 mod draw;
 mod flat;
 mod input;
+mod meaning;
 mod net_info;
 mod output;
 mod progress;
 mod report;
+mod requirements;
 mod simulate;
 mod translate;
 

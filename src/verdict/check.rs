@@ -23,6 +23,16 @@ pub struct Options {
     pub budget: Budget,
     /// In the scan view, the hazards that are no errors. In the transition view none is.
     pub tolerated: Tolerated,
+    /// The time from one scan to the next, in milliseconds. The program's timers have been told; here it is an assumption.
+    pub scan_time: u32,
+}
+
+impl Default for Options {
+    /// The scan view, a scan every 20 ms, and no hazard tolerated.
+    fn default() -> Self {
+        let (budget, tolerated) = (Budget::default(), Tolerated::default());
+        Self { view: View::Scan, fair: false, budget, tolerated, scan_time: 20 }
+    }
 }
 
 /// Explores a system and judges the requirements, which must have been bound for the view. `watch` can end the exploration;
