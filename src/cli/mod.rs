@@ -8,6 +8,7 @@ mod console;
 mod draw;
 mod flat;
 mod input;
+mod input_table;
 mod meaning;
 mod net_info;
 mod output;

@@ -41,7 +41,8 @@ impl Text<'_> {
         out += &summary(report);
         let names: Vec<&str> = fine.iter().map(|check| check.name.as_str()).collect();
         if !names.is_empty() {
-            out += &format!("checked without asking: {} holds\n", names.join(", "));
+            let verb = if names.len() == 1 { "holds" } else { "hold" };
+            out += &format!("checked without asking: {} {verb}\n", names.join(", "));
         }
         out
     }
@@ -125,6 +126,12 @@ impl Text<'_> {
             out += &format!("    {}\n", note.sentence(report.exploration.view));
         }
         match &witness.trace {
+            Trace::Scans(ScanTrace { scans, loop_start: None }) => {
+                if let Some((line, _)) = scans.last().and_then(|scan| scan.hazard) {
+                    let from = self.source.line_of(self.system.program.code[line].span.start);
+                    out += &format!("    {}:{from}: {}\n", self.source.name(), self.source.line_text(from).trim());
+                }
+            }
             Trace::Scans(ScanTrace { scans, loop_start: Some(start) }) => {
                 let (last, first) = (scans.len(), start + 1);
                 out += &format!("    and so on for ever: scan {last} ends in the state in which scan {first} ended\n");

@@ -247,6 +247,16 @@ impl Instruction {
         }
     }
 
+    /// The type CR has afterwards; `None` if that is its type before.
+    #[must_use]
+    pub fn result(&self) -> Option<Type> {
+        match *self {
+            Self::Combine { function, .. } if function.compares() => Some(Type::BOOL),
+            Self::Load { ty, .. } | Self::Combine { ty, .. } | Self::Convert { to: ty, .. } => Some(ty),
+            _ => None,
+        }
+    }
+
     /// The hazards it can meet.
     #[must_use]
     pub fn hazards(&self) -> &'static [Hazard] {
