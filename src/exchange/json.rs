@@ -7,7 +7,7 @@ use crate::logic::View;
 use crate::semantics::{Role, Type, VarId};
 use crate::source::Source;
 use crate::translate::{Part, System, TransitionRole};
-use crate::verdict::{Answer, Outcome, Report, Trace, Witness};
+use crate::verdict::{Answer, Outcome, Remark, Report, Trace, Witness};
 use crate::witness::{FiringTrace, Scan, ScanTrace};
 
 /// A diagnostic: code, severity, message, file, line and column from 1, help.
@@ -49,11 +49,32 @@ pub fn report(system: &System, report: &Report, file: &str) -> Value {
             "stop": exploration.stop.to_string(),
             "bytes": exploration.bytes,
         },
+        "inputs": inputs(system),
         "assumptions": report.assumptions,
         "requirements": answers(&report.answers),
         "checks": answers(&report.checks),
+        "notes": report.remarks.iter().map(|r| remark(system, r)).collect::<Vec<_>>(),
         "verdict": report.verdict().word(),
     })
+}
+
+/// The free inputs, each with the number of values that were tried.
+fn inputs(system: &System) -> Vec<Value> {
+    let one = |input: VarId| {
+        let size = u64::try_from(system.domain(input).size()).unwrap_or(u64::MAX);
+        json!({ "name": system.program.variable(input).name, "values": size })
+    };
+    system.free_inputs().map(one).collect()
+}
+
+fn remark(system: &System, remark: &Remark) -> Value {
+    match *remark {
+        Remark::NeverChanges(output, pattern) => {
+            let output = system.program.variable(output);
+            json!({ "kind": "never-changes", "variable": output.name, "value": value(output.ty, pattern) })
+        }
+        Remark::NeverExecuted(line) => json!({ "kind": "never-executed", "line": line + 1 }),
+    }
 }
 
 fn view(view: View) -> &'static str {

@@ -6,6 +6,7 @@
 mod behaviour;
 mod budget;
 mod components;
+mod coverage;
 mod free_inputs;
 mod graph;
 mod layout;
@@ -19,6 +20,7 @@ mod tarjan;
 pub use behaviour::{Behaviour, behaviour, unsafe_firing};
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
+pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;
 pub use graph::Graph;
 pub use marking_space::MarkingSpace;

@@ -8,6 +8,7 @@
 //! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
 
 use super::free_inputs::FreeInputs;
+use super::graph::Graph;
 use super::layout::{Field, Layout};
 use super::space::{Failure, StateSpace, Step};
 use crate::flat::Tolerated;
@@ -99,6 +100,12 @@ impl<'s> ScanSpace<'s> {
         self.variables[variable.0].1.get(state)
     }
 
+    /// A state of the graph of this space in plain form; `None` is power-on.
+    #[must_use]
+    pub(super) fn state(&self, id: Option<u32>, graph: &Graph) -> ScanState {
+        id.map_or_else(|| self.power_on(), |id| self.unpack(graph.state(id)))
+    }
+
     /// The system at power-on, before the first scan. It is no scan state.
     #[must_use]
     pub fn power_on(&self) -> ScanState {
@@ -137,8 +144,17 @@ impl<'s> ScanSpace<'s> {
 
     /// Calls `visit` for the scan from a state under each choice of plant markings and free inputs.
     pub fn scans(&self, from: &ScanState, visit: &mut dyn FnMut(ScanRun<'_>)) {
-        let choices = self.plant_choices(from);
         let mut state = vec![0; self.words];
+        self.beginnings(from, &mut |machine, plant| {
+            let result = self.scan(machine);
+            self.pack(plant, machine, &mut state);
+            visit(ScanRun { plant, machine, end: result.map(|()| state.as_slice()) });
+        });
+    }
+
+    /// Calls `visit` for the machine before each scan from a state, its inputs set, with the plant's markings.
+    pub(super) fn beginnings<'m>(&'m self, from: &ScanState, visit: &mut dyn FnMut(&mut Machine<'m>, &[usize])) {
+        let choices = self.plant_choices(from);
         let mut machine = Machine::new(&self.system.program);
         let mut odometer = vec![0; choices.len()];
         let mut plant = vec![0; choices.len()];
@@ -152,9 +168,7 @@ impl<'s> ScanSpace<'s> {
                     component.markings[marking].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
                 }
                 setting.copy_to(machine);
-                let result = self.scan(machine);
-                self.pack(&plant, machine, &mut state);
-                visit(ScanRun { plant: &plant, machine, end: result.map(|()| state.as_slice()) });
+                visit(machine, &plant);
             });
             // The next combination of plant markings, the last component fastest.
             let Some(turn) = odometer.iter().zip(&choices).rposition(|(&digit, choice)| digit + 1 < choice.len())

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::assumptions::assumptions;
 use super::failing::what_is_missing;
+use super::remarks::remarks;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::{Answer, Exploration, Outcome, Report, hazards, scan_ends};
 use crate::explore::{Budget, Graph, MarkingSpace, Progress, ScanSpace, explore};
@@ -89,6 +90,7 @@ pub fn check(
         assumptions: assumptions(system, &options),
         answers,
         checks,
+        remarks: view.scans().map(|space| remarks(space, &graph)).unwrap_or_default(),
     }
 }
 
