@@ -148,7 +148,7 @@ impl Binder<'_> {
     /// The place that is marked while a variable is TRUE.
     fn bit(&self, variable: VarId) -> crate::net::PlaceId {
         debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
-        self.system.place(PlaceRole::Bit { variable, value: true })
+        self.system.place(PlaceRole::Bit { variable, bit: 0, value: true })
     }
 
     fn at_line(&mut self, line: usize, span: Span) -> Bound {

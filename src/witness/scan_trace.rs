@@ -93,8 +93,11 @@ pub fn replay_scans(
             replay.fire_only(|role| role == TransitionRole::Plant { component, transition }).map_err(in_scan)?;
         }
         replay.fire_only(|role| role == TransitionRole::Block).map_err(in_scan)?;
-        for &(variable, value) in &scan.inputs {
-            replay.fire_only(|role| role == TransitionRole::Copy { variable, value: value == 1 }).map_err(in_scan)?;
+        for &(variable, pattern) in &scan.inputs {
+            for bit in (0..system.program.variable(variable).bits).rev() {
+                let copy = TransitionRole::Copy { variable, bit, value: pattern >> bit & 1 == 1 };
+                replay.fire_only(|role| role == copy).map_err(in_scan)?;
+            }
         }
         let mut seen = BTreeSet::new();
         while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {
