@@ -10,6 +10,7 @@ pub mod random_net;
 pub mod random_program;
 pub mod reports;
 pub mod systems;
+pub mod token_game;
 
 use petril::flat::{FlatProgram, flatten};
 use petril::logic::{Bound, View, bind, parse_formula};
