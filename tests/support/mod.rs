@@ -5,6 +5,7 @@
 pub mod document;
 pub mod naive_ctl;
 pub mod process;
+pub mod random_flat;
 pub mod random_formula;
 pub mod random_net;
 pub mod random_program;
