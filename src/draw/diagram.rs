@@ -67,28 +67,21 @@ pub fn diagram(system: &System) -> String {
 /// The control places in their order, each with what happens there.
 fn steps(system: &System) -> Vec<Piece<'_>> {
     let control = Control::of(system);
-    let mut transitions = vec![Vec::new(); control.len()];
-    for id in system.net.transition_ids() {
-        if let Some(step) = control.of_transition(system.transitions[id.index()]) {
-            transitions[step].push(id);
-        }
-    }
-    let places = control.places(system);
-    let steps = transitions.into_iter().enumerate().map(|(i, transitions)| {
-        let own = places[i];
-        let next = places[(i + 1) % places.len()];
+    let places = control.places();
+    let steps = places.iter().enumerate().map(|(row, &own)| {
+        let transitions = control.transitions(row);
+        let next = places[(row + 1) % places.len()];
         let text = match system.places[own.index()] {
             PlaceRole::Line(line) => system.program.code.get(line).map(|code| system.program.text(code.instruction)),
             _ => None,
         };
         let arcs = transitions.iter().flat_map(|&id| &system.net.transition(id).arcs.produce);
-        let mut targets: Vec<PlaceId> =
-            arcs.copied().filter(|place| control.of_place(system.places[place.index()]).is_some()).collect();
+        let mut targets: Vec<PlaceId> = arcs.copied().filter(|&place| control.of_place(place).is_some()).collect();
         targets.sort_unstable();
         targets.dedup();
         targets.retain(|&place| place != own && place != next);
         let left = [own].into_iter().chain(targets).chain([next]).collect();
-        let block = Block::new(system, left, &transitions);
+        let block = Block::new(system, left, transitions);
         Piece { heading: None, content: Content::Step { block, own, next, text: text.unwrap_or_default() } }
     });
     steps.collect()
@@ -115,10 +108,7 @@ fn components(system: &System) -> Vec<Piece<'_>> {
 }
 
 fn bits(system: &System) -> Vec<Piece<'_>> {
-    let places = system
-        .net
-        .place_ids()
-        .filter(|place| matches!(system.places[place.index()], PlaceRole::Bit { .. } | PlaceRole::Result(_)));
+    let places = system.net.place_ids().filter(|place| system.places[place.index()].is_bit());
     let places: Vec<PlaceId> = places.collect();
     let pairs = places.chunks_exact(2).enumerate();
     let pieces = pairs.map(|(i, pair)| Piece {

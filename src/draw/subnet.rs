@@ -23,7 +23,11 @@ pub fn subnet(system: &System, line: usize, title: Option<&str>) -> String {
     // The next line last, below; a jump's target on the way there.
     targets.sort_by_key(|place| (system.places[place.index()] == PlaceRole::Line(line + 1), *place));
     targets.dedup();
-    let left = [own].into_iter().chain(targets).collect();
+    let inner = system.net.place_ids().filter(|place| match system.places[place.index()] {
+        PlaceRole::Within(other, _) | PlaceRole::Hazard(other, _) => other == line,
+        _ => false,
+    });
+    let left = [own].into_iter().chain(inner).chain(targets).collect();
     let block = Block::new(system, left, &transitions);
 
     let widths = block.widths();

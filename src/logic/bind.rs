@@ -3,7 +3,6 @@
 use super::bound::{Bound, Term};
 use super::formula::{Expression, Formula, Temporal};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::Variable;
 use crate::semantics::{Role, VarId};
 use crate::source::Span;
 use crate::translate::{PlaceRole, System};
@@ -166,23 +165,23 @@ impl Binder<'_> {
         debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
         match self.view {
             View::Scan => Bound::Variable(variable),
-            View::Transition => Bound::Marked(self.system.place(PlaceRole::Bit { variable, value: true })),
+            View::Transition => Bound::Marked(self.system.place(PlaceRole::Bit { variable, bit: 0, value: true })),
         }
     }
 
     /// The number a variable holds; a `BOOL` counts as 0 or 1.
     fn value(&self, variable: VarId) -> Term {
-        let Variable { name, ty, bits, .. } = self.system.program.variable(variable);
+        let ty = self.system.program.variable(variable).ty;
         if ty.is_bool() {
             return Term::Truth(Box::new(self.bit(variable)));
         }
         if self.view == View::Scan {
-            return Term::Variable(variable, *ty);
+            return Term::Variable(variable, ty);
         }
         // In two's complement, the highest bit of the type counts negatively.
         let weight = |bit: u32| if ty.is_signed() && bit + 1 == ty.width { -(1_i128 << bit) } else { 1 << bit };
-        let place = |bit: u32| self.system.net.find_place(&format!("{name}.{bit}=1"));
-        let places = (0..*bits).filter_map(|bit| Some((place(bit)?, weight(bit)))).collect();
+        let bits = (0..).zip(self.system.bits(variable));
+        let places = bits.map(|(bit, [_, place])| (place, weight(bit))).collect();
         Term::Bits { variable, places }
     }
 

@@ -37,7 +37,9 @@ impl Bound {
             Self::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
             Self::Variable(variable) => system.program.variable(*variable).name.clone(),
             Self::Marked(place) => match system.places[place.index()] {
-                PlaceRole::Bit { variable, value: true } if system.program.variable(variable).role != Role::Buffer => {
+                PlaceRole::Bit { variable, bit: 0, value: true }
+                    if system.program.variable(variable).role != Role::Buffer =>
+                {
                     system.program.variable(variable).name.clone()
                 }
                 PlaceRole::Line(line) if line == system.program.end() => "at End".to_owned(),

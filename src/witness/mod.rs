@@ -4,7 +4,6 @@
 //! The replay plays the token game of [`crate::net`] firing by firing and runs the interpreter beside it, instruction by
 //! instruction; net and interpreter must agree on every bit at every step, and with what the search claims.
 
-mod execute;
 mod firing_trace;
 mod narrate;
 mod replay;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use super::execute::execute_scans;
 use super::replay::{Disagreement, Replay};
 use crate::explore::{Failure, ScanSpace, ScanState};
 use crate::flat::Hazard;
@@ -97,8 +96,7 @@ fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove>
 /// Whether a formula about one state holds now; `None` for a temporal formula.
 pub type Holds<'a> = &'a dyn Fn(&Bound) -> Option<bool>;
 
-/// Replays a trace, and calls `at_end` at the end of each scan with its position. A program that the net has in full is
-/// replayed on the net and in the interpreter, any other one in the interpreter alone.
+/// Replays a trace, and calls `at_end` at the end of each scan with its position.
 ///
 /// # Errors
 /// The trace is not one of the system, or `at_end` finds that it does not show what it should.
@@ -106,33 +104,6 @@ pub fn replay_scans(
     system: &System,
     trace: &ScanTrace,
     mut at_end: impl FnMut(usize, Holds<'_>) -> Result<(), Disagreement>,
-) -> Result<(), Disagreement> {
-    if is_on_net(system) {
-        replay_on_net(system, trace, &mut at_end)?;
-        execute_scans(system, trace, &mut |_, _| Ok(()))?;
-    } else {
-        execute_scans(system, trace, &mut at_end)?;
-    }
-    // Both ends have been compared with the replay, so they are the same if they say the same.
-    let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
-    match trace.loop_start {
-        Some(start) if start + 1 >= trace.scans.len() || end(start) != end(trace.scans.len() - 1) => {
-            Err(Disagreement("the lasso does not close".to_owned()))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Whether the net does all that the program does.
-fn is_on_net(system: &System) -> bool {
-    system.program.variables.iter().all(|variable| variable.ty.is_bool()) && system.program.hazards().is_empty()
-}
-
-/// Replays a trace on the net, with the interpreter beside it.
-fn replay_on_net(
-    system: &System,
-    trace: &ScanTrace,
-    at_end: &mut dyn FnMut(usize, Holds<'_>) -> Result<(), Disagreement>,
 ) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
     let end_place = PlaceRole::Line(system.program.end());
@@ -142,12 +113,21 @@ fn replay_on_net(
             replay.fire_only(|role| role == TransitionRole::Plant { component, transition }).map_err(in_scan)?;
         }
         replay.fire_only(|role| role == TransitionRole::Block).map_err(in_scan)?;
-        for &(variable, value) in &scan.inputs {
-            replay.fire_only(|role| role == TransitionRole::Copy { variable, value: value == 1 }).map_err(in_scan)?;
+        for &(variable, pattern) in &scan.inputs {
+            for bit in (0..system.program.variable(variable).bits).rev() {
+                let copy = TransitionRole::Copy { variable, bit, value: pattern >> bit & 1 == 1 };
+                replay.fire_only(|role| role == copy).map_err(in_scan)?;
+            }
         }
         let mut seen = BTreeSet::new();
         while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {
             replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
+            if scan.end.is_none() && scan.hazard.is_some_and(|hazard| replay.hazards().contains(&hazard)) {
+                return Ok(());
+            }
+        }
+        if scan.hazard.is_some_and(|hazard| !replay.hazards().contains(&hazard)) {
+            return Err(in_scan(Disagreement("it does not meet this hazard".to_owned())));
         }
         let Some(end) = &scan.end else {
             return if replay.is_at(end_place) { Err(in_scan(Disagreement("it ends".to_owned()))) } else { Ok(()) };
@@ -159,7 +139,14 @@ fn replay_on_net(
         at_end(position, &|formula| replay.holds(formula)).map_err(in_scan)?;
         replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
     }
-    Ok(())
+    // Both ends have been compared with the net, so they are the same if they say the same.
+    let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
+    match trace.loop_start {
+        Some(start) if start + 1 >= trace.scans.len() || end(start) != end(trace.scans.len() - 1) => {
+            Err(Disagreement("the lasso does not close".to_owned()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The search's end state against the net's.
