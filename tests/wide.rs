@@ -212,6 +212,36 @@ fn every_width_has_its_place_in_a_state() {
     assert_eq!(last, expected, "{table}");
 }
 
+/// In the transition view the bits of a number are places, and so are hazards.
+#[test]
+fn the_transition_view_knows_numbers() {
+    let program = assemble("in k SINT\nvar c SINT 126\nout high BOOL", "LD c\nADD k\nST c\nGT 100\nST high");
+    let system = system(program, &["k: 0..1"]);
+    let formulas = [
+        "AG (c >= 126 | c = -128 | c <= -127)",
+        "EF (c = -128)",
+        "AG (at End -> (high <-> c > 100))",
+        "AG (k + 1 <= 1)",
+    ];
+    let answers = formulas.map(|text| {
+        let requirement = parse_formula(text, &Source::new("formula", text)).unwrap();
+        let bound = bind(&requirement.formula, &system, View::Transition).unwrap();
+        (requirement, bound)
+    });
+    let options = Options { view: View::Transition, ..Options::default() };
+    let report = check(&system, &answers, options, &mut |_| None);
+    let words: Vec<_> =
+        report.checks.iter().chain(&report.answers).map(|answer| answer.outcome.verdict().word()).collect();
+    // From -128 on, c comes back to 126 in the end.
+    assert_eq!(words, ["holds", "violated", "violated", "holds", "holds", "violated"]);
+    assert_eq!(bind_text(&system, "AG (C < 2)"), "AG (c < 2)");
+}
+
+fn bind_text(system: &System, text: &str) -> String {
+    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap();
+    bind(&requirement.formula, system, View::Transition).unwrap().text(system)
+}
+
 #[test]
 fn an_integer_is_no_truth_value() {
     let system = counter();

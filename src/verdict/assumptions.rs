@@ -57,19 +57,16 @@ pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
 
 /// What is assumed of numbers that do not fit, and of division by zero.
 fn arithmetic(system: &System, options: &Options) -> Vec<String> {
-    let of = |hazard| match hazard {
-        _ if options.view == View::Transition => None,
+    let hazards = system.program.hazards();
+    let tolerated = |hazard| match hazard {
         Hazard::Overflow if options.tolerated.overflow => Some("numbers that do not fit their type wrap around"),
         Hazard::DivisionByZero if options.tolerated.division_by_zero => Some("a division by zero gives 0"),
         _ => None,
     };
-    let hazards = system.program.hazards();
-    let mut assumptions: Vec<String> = hazards.iter().filter_map(|&hazard| of(hazard)).map(str::to_owned).collect();
-    if options.view == View::Transition && !hazards.is_empty() {
-        let names = hazards.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        let text = "after an error the program goes on as if nothing had happened; whether there is one is checked in the \
-                    scan view";
-        assumptions.push(format!("{text} ({names})"));
+    let mut assumptions: Vec<String> = hazards.iter().filter_map(|&h| tolerated(h)).map(str::to_owned).collect();
+    if options.view == View::Transition && hazards.iter().any(|&hazard| !options.tolerated.allows(hazard)) {
+        assumptions
+            .push("after an error the program goes on, as it would with `--overflow wrap --div0 zero`".to_owned());
     }
     assumptions
 }

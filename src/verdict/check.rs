@@ -22,7 +22,7 @@ pub struct Options {
     pub fair: bool,
     /// How far the exploration may go.
     pub budget: Budget,
-    /// In the scan view, the hazards that are no errors. In the transition view none is.
+    /// The hazards that are no errors. In the scan view nothing is known after the others.
     pub tolerated: Tolerated,
     /// The time from one scan to the next, in milliseconds. The program's timers have been told; here it is an assumption.
     pub scan_time: u32,
@@ -67,14 +67,19 @@ pub fn check(
         outcome: judge.outcome(bound),
     });
     let answers = answers.collect();
-    let checks = match view.scans() {
-        Some(space) => {
-            let ends = scan_ends::answer(scan_ends::on_scans(space, &graph));
-            let of = |hazard| hazards::answer(hazard, hazards::on_scans(space, &graph, hazard));
-            std::iter::once(ends).chain(hazards::checked(&system.program, options.tolerated).map(of)).collect()
-        }
-        None => vec![scan_ends::answer(Judge { fair: None, ..judge }.outcome(&scan_ends::formula(system)))],
+    let unfair = Judge { fair: None, ..judge };
+    let ends = match view.scans() {
+        Some(space) => scan_ends::on_scans(space, &graph),
+        None => unfair.outcome(&scan_ends::formula(system)),
     };
+    let met = |hazard| match view.scans() {
+        Some(space) => hazards::on_scans(space, &graph, hazard),
+        None => unfair.outcome(&hazards::formula(system, hazard)),
+    };
+    let hazards = hazards::checked(&system.program, options.tolerated);
+    let checks =
+        std::iter::once(scan_ends::answer(ends)).chain(hazards.map(|hazard| hazards::answer(hazard, met(hazard))));
+    let checks = checks.collect();
     // The first scan is a step too in the scan view, not in the transition view.
     let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
     Report {

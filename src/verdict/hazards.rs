@@ -5,6 +5,8 @@ use super::failing::{Failing, failing_scan};
 use super::{Answer, Outcome};
 use crate::explore::{Failure, Graph, ScanSpace};
 use crate::flat::{FlatProgram, Hazard, Tolerated};
+use crate::logic::{Bound, Quantifier};
+use crate::translate::{PlaceRole, System};
 
 /// The checks that are made of a program.
 pub fn checked(program: &FlatProgram, tolerated: Tolerated) -> impl Iterator<Item = Hazard> {
@@ -20,6 +22,18 @@ pub fn answer(hazard: Hazard, outcome: Outcome) -> Answer {
         Hazard::Subrange => ("Every variable stays within its subrange.", "AG !subrange-left"),
     };
     Answer { name: hazard.to_string(), sentence: Some(sentence.to_owned()), formula: formula.to_owned(), outcome }
+}
+
+/// A check in the transition view: control never comes to a place of the hazard. There, the program goes on behind it.
+pub fn formula(system: &System, hazard: Hazard) -> Bound {
+    let places = (0..system.program.end()).filter_map(|line| system.find(PlaceRole::Hazard(line, hazard)));
+    let met = places.map(Bound::Marked).reduce(|f, g| Bound::Or(Box::new(f), Box::new(g)));
+    Bound::Until {
+        quantifier: Quantifier::All,
+        weak: true,
+        hold: Box::new(Bound::Not(Box::new(met.unwrap_or(Bound::Truth(false))))),
+        release: Box::new(Bound::Truth(false)),
+    }
 }
 
 /// A check in the scan view: the search has met every scan there is before the first error.
