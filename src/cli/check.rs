@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use petril::exchange::json;
-use petril::logic;
+use petril::logic::{self, Bound, Requirement, representatives};
 use petril::translate::System;
 use petril::verdict::{Options, Verdict, check};
 
@@ -25,8 +25,11 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     let (program, plant, source) = input::parts(&arguments.program, &arguments.plant, console)?;
     let mut asked = Asked::read(arguments, console)?;
     let domains = asked.domains(&program, &plant);
-    let system = System::with_domains(program, plant, domains);
+    let mut system = System::with_domains(program, plant, domains);
     let requirements = asked.requirements(&system, view, console)?;
+    if view == logic::View::Scan {
+        system = with_representatives(system, &requirements);
+    }
     let watcher = Watcher::new(&arguments.limits)?;
     let options = Options {
         view,
@@ -48,4 +51,16 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         Verdict::Violated => ExitCode::from(1),
         Verdict::Unknown => ExitCode::from(3),
     })
+}
+
+/// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.
+fn with_representatives(system: System, requirements: &[(Requirement, Bound)]) -> System {
+    let formulas: Vec<&Bound> = requirements.iter().map(|(_, formula)| formula).collect();
+    let mut found = representatives(&system, &formulas);
+    if found.is_empty() {
+        return system;
+    }
+    let System { program, plant, mut domains, .. } = system;
+    domains.append(&mut found);
+    System::with_domains(program, plant, domains)
 }

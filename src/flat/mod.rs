@@ -4,12 +4,14 @@
 //! numbers, a return is a jump to the end. Both the interpreter and the net are made from it.
 
 mod carried;
+mod compared;
 mod instruction;
 mod lower;
 mod print;
 mod tolerated;
 mod value;
 
+pub use compared::Cuts;
 pub use lower::flatten;
 pub use print::literal;
 pub use tolerated::Tolerated;

@@ -35,12 +35,17 @@ pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
     }
     for input in restricted {
         let (domain, name) = (system.domain(input), &program.variable(input).name);
-        let ranges = domain
-            .ranges()
-            .iter()
-            .map(|(from, to)| if from == to { from.to_string() } else { format!("{from}..{to}") });
+        let ranges = domain.ranges().iter();
+        let ranges = ranges.map(|(from, to)| if from == to { from.to_string() } else { format!("{from}..{to}") });
         let (size, ranges) = (domain.size(), ranges.collect::<Vec<_>>().join(", "));
         assumptions.push(match size {
+            1 if domain.stands_for_all() => {
+                format!("{name} may have any value in any scan; nothing depends on it, so {ranges} stands for all")
+            }
+            _ if domain.stands_for_all() => format!(
+                "{name} may have any value in any scan; it is only compared with constants, so {size} values stand for \
+                 all: {ranges}"
+            ),
             1 => format!("{name} is {ranges} in every scan"),
             _ => format!("{name} may have any of {size} values in any scan: {ranges}"),
         });
