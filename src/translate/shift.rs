@@ -38,8 +38,10 @@ fn by(subnet: &mut Subnet<'_>, function: Function, ty: Type, mut distance: Vec<W
     }
     far.retain(|wire| wire.known() != Some(false));
     let known = distance.iter().enumerate().map(|(stage, wire)| wire.known().map(|value| usize::from(value) << stage));
-    if let (Some(distance), true) = (known.sum::<Option<usize>>(), far.iter().all(|wire| wire.known().is_some())) {
-        let distance = if far.is_empty() { distance } else { bits.len() };
+    if far.iter().any(|wire| wire.known().is_some()) {
+        return clear(subnet, at, next, &bits);
+    }
+    if let Some(distance) = known.sum::<Option<usize>>().filter(|_| far.is_empty()) {
         return once(subnet, function, at, next, &bits, distance);
     }
     if !far.is_empty() {
