@@ -107,7 +107,8 @@ fn rotate(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &[Bit], dis
         Put { cycle: usize, position: usize, value: bool },
     }
     let width = bits.len();
-    let cycles = (1..=width).rev().find(|&divisor| width % divisor == 0 && distance % divisor == 0).unwrap_or(1);
+    // The greatest common divisor of both, since widths are powers of two.
+    let cycles = 1 << (distance | width).trailing_zeros();
     subnet.walk(from, State::Cycle(0), |_, state| match *state {
         State::Cycle(cycle) if cycle == cycles || cycles == width => Stage::Leave(to),
         State::Cycle(cycle) => {
