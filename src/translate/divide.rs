@@ -31,6 +31,9 @@ struct Division {
 
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type, modulo: bool, negated: bool, operand: Operand) {
     let given = subnet.wires(ty, negated, operand);
+    if given.iter().all(|wire| wire.known() == Some(false)) {
+        return by_zero(subnet, ty);
+    }
     let known = given.iter().all(|wire| wire.known().is_some());
     let signed = ty.is_signed();
     let copies = !known && (signed || matches!(operand, Operand::Place(Target::Element(_))));
@@ -55,6 +58,13 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, modulo: bool, negated: bool,
     division.finish(subnet, done);
 }
 
+/// Divides by a 0 that is known.
+fn by_zero(subnet: &mut Subnet<'_>, ty: Type) {
+    let hazard = subnet.hazard(Hazard::DivisionByZero);
+    subnet.step(subnet.here(), hazard, &[]);
+    clear(subnet, hazard, subnet.next(), &subnet.result(ty.width));
+}
+
 /// The magnitude of a number that is known.
 fn magnitude(ty: Type, given: &[Wire]) -> Vec<Wire> {
     let pattern = given.iter().rev().fold(0, |pattern, wire| pattern << 1 | u64::from(wire.known() == Some(true)));
@@ -70,12 +80,16 @@ impl Division {
             fill(subnet, from, to, &self.register, &self.given);
             return to;
         };
-        let [positive, negative] = [(); 2].map(|()| subnet.within());
-        for (value, given) in &sign.0 {
-            subnet.step(from, if *value { negative } else { positive }, given);
+        for value in VALUES {
+            let readings: Vec<_> = sign.0.iter().filter(|(read, _)| *read == value).collect();
+            if readings.is_empty() {
+                continue;
+            }
+            let begin = subnet.within();
+            readings.iter().for_each(|(_, given)| subnet.step(from, begin, given));
+            let take = if value { fill_negated } else { fill };
+            take(subnet, begin, to, &self.register, &self.given);
         }
-        fill(subnet, positive, to, &self.register, &self.given);
-        fill_negated(subnet, negative, to, &self.register, &self.given);
         to
     }
 

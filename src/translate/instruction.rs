@@ -36,8 +36,11 @@ fn function_of(subnet: &mut Subnet<'_>, function: Function, ty: Type, negated: b
 /// How many bits of the current result an instruction works on.
 pub fn width(instruction: &Instruction) -> u32 {
     match *instruction {
-        Instruction::Load { ty, .. } | Instruction::Store { ty, .. } | Instruction::Complement(ty) => ty.width,
-        Instruction::Combine { ty, .. } | Instruction::Bound { ty, .. } => ty.width,
+        Instruction::Load { ty, .. }
+        | Instruction::Store { ty, .. }
+        | Instruction::Complement(ty)
+        | Instruction::Combine { ty, .. }
+        | Instruction::Bound { ty, .. } => ty.width,
         Instruction::Convert { from, to } => from.width.max(to.width),
         Instruction::Set(_) | Instruction::Reset(_) | Instruction::Jump { .. } => 1,
     }

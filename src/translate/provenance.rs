@@ -82,22 +82,16 @@ impl PlaceRole {
     #[must_use]
     pub fn part(self) -> Part {
         match self {
-            Self::Bit { .. } | Self::Result { .. } | Self::Register { .. } => Part::User,
-            Self::Line(_) | Self::Within(..) | Self::Hazard(..) => Part::User,
             Self::Idle | Self::Copy(_) | Self::Copying(..) | Self::Blocking(_) => Part::System,
             Self::Plant(_) => Part::Plant,
+            _ => Part::User,
         }
     }
 
     /// Whether the one token of control can be there.
     #[must_use]
     pub fn is_control(self) -> bool {
-        match self {
-            Self::Line(_) | Self::Within(..) | Self::Hazard(..) => true,
-            Self::Idle | Self::Copy(_) | Self::Copying(..) => true,
-            Self::Bit { .. } | Self::Result { .. } | Self::Register { .. } => false,
-            Self::Blocking(_) | Self::Plant(_) => false,
-        }
+        !self.is_bit() && !matches!(self, Self::Blocking(_) | Self::Plant(_))
     }
 
     /// Whether it is one of the two places of a bit.

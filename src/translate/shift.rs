@@ -38,8 +38,10 @@ fn by(subnet: &mut Subnet<'_>, function: Function, ty: Type, mut distance: Vec<W
     }
     far.retain(|wire| wire.known() != Some(false));
     let known = distance.iter().enumerate().map(|(stage, wire)| wire.known().map(|value| usize::from(value) << stage));
-    if let (Some(distance), true) = (known.sum::<Option<usize>>(), far.iter().all(|wire| wire.known().is_some())) {
-        let distance = if far.is_empty() { distance } else { bits.len() };
+    if far.iter().any(|wire| wire.known().is_some()) {
+        return clear(subnet, at, next, &bits);
+    }
+    if let Some(distance) = known.sum::<Option<usize>>().filter(|_| far.is_empty()) {
         return once(subnet, function, at, next, &bits, distance);
     }
     if !far.is_empty() {
@@ -105,7 +107,8 @@ fn rotate(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &[Bit], dis
         Put { cycle: usize, position: usize, value: bool },
     }
     let width = bits.len();
-    let cycles = (1..=width).rev().find(|&divisor| width % divisor == 0 && distance % divisor == 0).unwrap_or(1);
+    // The greatest common divisor of both, since widths are powers of two.
+    let cycles = 1 << (distance | width).trailing_zeros();
     subnet.walk(from, State::Cycle(0), |_, state| match *state {
         State::Cycle(cycle) if cycle == cycles || cycles == width => Stage::Leave(to),
         State::Cycle(cycle) => {
