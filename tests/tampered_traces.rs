@@ -4,12 +4,14 @@
 mod support;
 
 use petril::explore::{Budget, Failure, MarkingSpace, ScanSpace, explore};
+use petril::flat::Hazard;
 use petril::interpret::Fault;
 use petril::net::TransitionId;
-use petril::translate::{System, TransitionRole};
+use petril::translate::{Plant, System, TransitionRole};
 use petril::witness::{Disagreement, FiringTrace, ScanTrace, firing_trace, replay_firings, replay_scans, scan_trace};
 use proptest::prelude::*;
 use proptest::sample::Index;
+use support::assembler::assemble;
 use support::random_program;
 use support::reports::{counterexample, report};
 use support::systems::{HANDS, TWO_HAND_SWITCH, system};
@@ -81,6 +83,20 @@ fn a_scan_that_never_ends_cannot_be_claimed_to_end() {
         trace.scans[0].end = Some(space.power_on());
     });
     refused(&system, &endless, "in scan 1: it ends", |trace| trace.scans[0].inputs[0].1 = 0);
+}
+
+#[test]
+fn an_error_cannot_be_claimed_where_there_is_none() {
+    let program = assemble("in d SINT\nvar c SINT 120", "LD c\nADD d\nST c\nLD SINT#7\nDIV d\nST c");
+    let system = System::new(program, Plant::default());
+    let space = ScanSpace::new(&system);
+    let by_zero = scan_trace(&space, &[], None, Some(Failure::Hazard(4, Hazard::DivisionByZero)));
+    assert_eq!(replayed(&system, &by_zero), Ok(()));
+    assert_eq!(by_zero.scans[0].inputs[0].1, 0);
+    let why = "in scan 1: it does not meet this hazard";
+    refused(&system, &by_zero, why, |trace| trace.scans[0].hazard = Some((1, Hazard::DivisionByZero)));
+    refused(&system, &by_zero, why, |trace| trace.scans[0].hazard = Some((4, Hazard::Overflow)));
+    refused(&system, &by_zero, why, |trace| trace.scans[0].inputs[0].1 = 1);
 }
 
 #[test]

@@ -4,12 +4,13 @@
 
 mod support;
 
+use petril::exchange::json;
 use petril::flat::{FlatProgram, Hazard, Tolerated};
 use petril::logic::{View, bind, bind_domain, parse_domain, parse_formula, parse_requirements};
 use petril::source::Source;
 use petril::translate::{Domains, Plant, System};
 use petril::verdict::{Answer, Options, Outcome, Report, Trace, check};
-use petril::witness::{ScanTrace, scan_table};
+use petril::witness::{ScanTrace, line_by_line, scan_table};
 use support::assembler::assemble;
 
 const WRAP: Tolerated = Tolerated { overflow: true, division_by_zero: false };
@@ -210,6 +211,45 @@ fn every_width_has_its_place_in_a_state() {
     let last = table.lines().last().unwrap();
     let expected = "   2 | *0 |  18446744073709551614  -9223372036854775807 |  T#1s500ms  32769";
     assert_eq!(last, expected, "{table}");
+}
+
+#[test]
+fn reports_for_programs_have_numbers() {
+    let program = assemble(
+        "in k SINT\nvar low LINT -9223372036854775808\nvar c USINT 254\nout t TIME 20\nout big ULINT -1",
+        "LD c\nADD 1\nST c\nLD low\nST low\nLD t\nST t\nLD big\nST big",
+    );
+    let system = system(program, &["k: -2"]);
+    let report = report(&system, &[], Tolerated::default());
+    let document = json::report(&system, &report, "p.il");
+    let check = &document["checks"][1];
+    assert_eq!((check["name"].as_str(), check["verdict"].as_str()), (Some("overflow"), Some("violated")));
+    let scans = &check["trace"]["scans"];
+    // 255 is the last number; the second scan goes beyond it.
+    assert_eq!(scans[0]["memory"]["c"], 255);
+    assert_eq!(scans[0].get("hazard"), None);
+    assert_eq!((&scans[1]["hazard"]["kind"], &scans[1]["hazard"]["line"]), (&"overflow".into(), &2.into()));
+    assert_eq!(scans[1]["inputs"]["k"], -2);
+    assert_eq!(scans[0]["memory"]["low"], i64::MIN);
+    assert_eq!(scans[0]["outputs"]["t"], 20, "milliseconds");
+    assert_eq!(scans[0]["outputs"]["big"], u64::MAX);
+    assert_eq!(document["inputs"], serde_json::json!([{ "name": "k", "values": 1 }]));
+    let table = scan_table(&system, trace(&report, "overflow")).to_string();
+    assert!(table.contains(" -2 ") && table.contains("T#20ms"), "{table}");
+}
+
+#[test]
+fn an_error_is_told_in_its_line() {
+    let system = counter();
+    let report = report(&system, &[], Tolerated::default());
+    let run = trace(&report, "overflow");
+    let lines = line_by_line(&system, run, 5, &Source::new("p.il", "text")).to_string();
+    let rows: Vec<Vec<&str>> = lines.lines().skip(2).map(|row| row.split('|').map(str::trim).collect()).collect();
+    let told: Vec<&str> = rows.iter().map(|row| row[1]).collect();
+    assert_eq!(rows.len(), 3);
+    assert_eq!(told, ["255", "0 overflow", "0 c = 0"]);
+    let Outcome::Violated(witness) = &report.checks[1].outcome else { panic!("{:?}", report.checks[1]) };
+    assert_eq!(witness.notes[0].text, "a number did not fit its type in line 2 (`ADD 1`)");
 }
 
 /// In the transition view the bits of a number are places, and so are hazards.
