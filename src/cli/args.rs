@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 
-use super::meaning::Meaning;
+use super::meaning::{Meaning, Timing};
 
 /// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
 ///
@@ -147,6 +147,9 @@ pub struct Translate {
     /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot, .svg.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
 }
 
 /// `petril flat`
@@ -155,6 +158,9 @@ pub struct Flat {
     /// The program (Instruction List).
     #[arg(value_name = "PROGRAM.il")]
     pub program: PathBuf,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
 }
 
 /// `petril simulate`
@@ -208,6 +214,9 @@ pub struct Draw {
     /// Where to write the SVG picture.
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: PathBuf,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
 }
 
 /// The verbs on nets.

@@ -9,6 +9,7 @@ use petril::verdict::{Options, Verdict, check};
 
 use super::args::{Check, View};
 use super::console::Console;
+use super::input::Program;
 use super::progress::Watcher;
 use super::requirements::Asked;
 use super::{Failure, Outcome, input, report};
@@ -22,7 +23,9 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let (program, plant, source) = input::parts(&arguments.program, &arguments.plant, console)?;
+    let timing = arguments.meaning.timing;
+    let (Program { flat: program, source, scan_time }, plant) =
+        input::parts(&arguments.program, &arguments.plant, timing, console)?;
     let mut asked = Asked::read(arguments, console)?;
     let domains = asked.domains(&program, &plant);
     let mut system = System::with_domains(program, plant, domains);
@@ -36,7 +39,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         fair: arguments.fair,
         budget: arguments.limits.budget(),
         tolerated: arguments.meaning.tolerated(),
-        scan_time: arguments.meaning.scan_time,
+        scan_time,
     };
     let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
     watcher.finish();

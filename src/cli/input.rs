@@ -7,7 +7,7 @@ use std::path::Path;
 
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::exchange::{pnml, tina};
-use petril::flat::{FlatProgram, flatten};
+use petril::flat::{DEFAULT_SCAN_TIME, FlatProgram, flatten_with};
 use petril::net::Located;
 use petril::semantics;
 use petril::source::{NotText, Source, Span};
@@ -15,6 +15,7 @@ use petril::syntax;
 use petril::translate::{Plant, System};
 
 use super::console::Console;
+use super::meaning::Timing;
 use super::{Failure, reason};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
@@ -59,17 +60,21 @@ fn readable(bytes: &[u8]) -> Vec<u8> {
 pub struct Program {
     pub flat: FlatProgram,
     pub source: Source,
+    /// The time from one scan to the next, in milliseconds.
+    pub scan_time: u64,
 }
 
 /// Reads a program. Its diagnostics are printed, warnings too.
-pub fn program(path: &Path, console: &Console) -> Result<Program, Failure> {
+pub fn program(path: &Path, timing: Timing, console: &Console) -> Result<Program, Failure> {
     let source = source(path, MAX_TEXT, console)?;
     let (unit, mut diagnostics) = syntax::parse(&source);
     let (program, more) = semantics::check(&unit, !any_error(&diagnostics));
     diagnostics.extend(more);
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
-    program.map(|program| Program { flat: flatten(&program), source }).ok_or(Failure::Reported)
+    let program = program.ok_or(Failure::Reported)?;
+    let scan_time = timing.scan_time.or(program.interval).unwrap_or(DEFAULT_SCAN_TIME);
+    Ok(Program { flat: flatten_with(&program, Some(scan_time)), source, scan_time })
 }
 
 /// Reads a net, by the ending of its name.
@@ -94,29 +99,35 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
 }
 
 /// A program in its plants, free inputs having any value.
-pub fn system<P: AsRef<Path>>(path: &Path, plants: &[P], console: &Console) -> Result<(System, Source), Failure> {
-    let (flat, plant, source) = parts(path, plants, console)?;
-    Ok((System::new(flat, plant), source))
+pub fn system<P: AsRef<Path>>(
+    path: &Path,
+    plants: &[P],
+    timing: Timing,
+    console: &Console,
+) -> Result<(System, Source), Failure> {
+    let (program, plant) = parts(path, plants, timing, console)?;
+    Ok((System::new(program.flat, plant), program.source))
 }
 
 /// A program and its plants.
 pub fn parts<P: AsRef<Path>>(
     path: &Path,
     plants: &[P],
+    timing: Timing,
     console: &Console,
-) -> Result<(FlatProgram, Plant, Source), Failure> {
-    let program = program(path, console);
+) -> Result<(Program, Plant), Failure> {
+    let program = program(path, timing, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
-    let Program { flat, source } = program?;
+    let program = program?;
     let mut plant = Plant::default();
     let mut failed = false;
     for net in nets {
         let (net, net_source) = net?;
-        if let Err(diagnostics) = plant.add(&net, &flat) {
+        if let Err(diagnostics) = plant.add(&net, &program.flat) {
             console.diagnostics(&diagnostics, &net_source);
             failed = true;
         }
     }
-    if failed { Err(Failure::Reported) } else { Ok((flat, plant, source)) }
+    if failed { Err(Failure::Reported) } else { Ok((program, plant)) }
 }

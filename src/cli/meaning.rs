@@ -13,9 +13,17 @@ pub struct Meaning {
     /// What a division by zero is: an error, or 0.
     #[arg(long, value_name = "HOW", value_enum, default_value_t = DivisionByZero::Error)]
     pub div0: DivisionByZero,
-    /// The time from one scan to the next, as timers measure it.
-    #[arg(long, value_name = "TIME", default_value = "20ms", value_parser = milliseconds)]
-    pub scan_time: u32,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
+}
+
+/// How often scans come.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct Timing {
+    /// The time from one scan to the next, as timers measure it; if not given, the interval of the program's task, or 20ms.
+    #[arg(long, value_name = "TIME", value_parser = milliseconds)]
+    pub scan_time: Option<u64>,
 }
 
 /// What a number is that does not fit its type.
@@ -44,8 +52,12 @@ impl Meaning {
 }
 
 /// A time above 0 as `20ms` or `T#20ms`.
-fn milliseconds(text: &str) -> Result<u32, String> {
+fn milliseconds(text: &str) -> Result<u64, String> {
     let literal = if text.contains('#') { text.to_owned() } else { format!("T#{text}") };
     let number = logic::number(&literal)?;
-    u32::try_from(number).ok().filter(|&ms| ms > 0).ok_or_else(|| format!("`{text}` is no time above 0, like `20ms`"))
+    u32::try_from(number)
+        .ok()
+        .filter(|&ms| ms > 0)
+        .map(u64::from)
+        .ok_or_else(|| format!("`{text}` is no time above 0, like `20ms`"))
 }

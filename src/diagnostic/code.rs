@@ -75,6 +75,40 @@ codes! {
     ConstantWithoutValue = "W0206",
     /// A program organisation unit is not part of what is checked.
     PouNotChecked = "W0207",
+    /// A type is used and not declared.
+    TypeNotDeclared = "E0208",
+    /// A type contains itself.
+    TypeRecursive = "E0209",
+    /// A range is empty, or its ends are no numbers.
+    RangeUnfit = "E0210",
+    /// A variable has too many elements to be modelled.
+    VariableTooLarge = "E0211",
+    /// An address is none, or does not fit its variable.
+    AddressUnfit = "E0212",
+    /// Two variables share an address.
+    AddressShared = "E0213",
+    /// An external variable has no global one behind it.
+    ExternalWithoutGlobal = "E0214",
+    /// Two program organisation units or types have the same name.
+    PouDeclaredTwice = "E0215",
+    /// A program organisation unit calls itself.
+    Recursion = "E0216",
+    /// A function has no result, or one that cannot be returned.
+    FunctionResult = "E0217",
+    /// Retained variables are modelled as after a cold start only.
+    RetainColdStart = "W0218",
+    /// A task says nothing that can be used of how often it runs.
+    TaskUnfit = "E0219",
+    /// A program organisation unit that is called is not written in IL.
+    OtherLanguage = "E0220",
+    /// There is no program, so a function block or function is checked by itself.
+    CheckedByItself = "W0221",
+    /// A variable is never used.
+    VariableNotUsed = "W0222",
+    /// A variable is read and never written.
+    VariableNotWritten = "W0223",
+    /// An output is never written.
+    OutputNotWritten = "W0224",
 
     /// An operator is not supported.
     OperatorNotSupported = "E0301",
@@ -100,6 +134,42 @@ codes! {
     InstructionUnreachable = "W0311",
     /// A label is never jumped to.
     LabelNotUsed = "W0312",
+    /// Types differ where they have to be the same.
+    TypesDiffer = "E0313",
+    /// A literal is no value of the type it is used with.
+    LiteralUnfit = "E0314",
+    /// An operator has no meaning for a type.
+    OperatorUnfit = "E0315",
+    /// A variable has no such member.
+    MemberUnknown = "E0316",
+    /// A variable has no such dimensions.
+    IndexCount = "E0317",
+    /// An index is outside its array.
+    IndexOutside = "E0318",
+    /// An index is not of a kind that can choose an element.
+    IndexUnfit = "E0319",
+    /// What is called is no instance of a function block.
+    NotCallable = "E0320",
+    /// A call names a parameter that does not exist.
+    ParameterUnknown = "E0321",
+    /// A call gives a parameter twice.
+    ParameterTwice = "E0322",
+    /// A call leaves out what it has to give, or gives too much.
+    ParameterCount = "E0323",
+    /// A parameter is not of a kind that can be given so.
+    ParameterUnfit = "E0324",
+    /// A member of a function block is used from outside in a way it cannot be.
+    MemberHidden = "E0325",
+    /// The current result has another type on another way to this instruction.
+    ResultTypesDiffer = "E0326",
+    /// A value is computed and never used.
+    ResultNotUsed = "W0327",
+    /// A jump goes back, so that a scan may never end.
+    JumpBack = "W0328",
+    /// A standard function or function block is not supported.
+    StandardNotSupported = "E0329",
+    /// The program is too large when all its calls are written out.
+    ProgramTooLarge = "E0330",
 
     /// A net file is not what its format asks for.
     NetSyntax = "E0401",

@@ -7,12 +7,13 @@ mod carried;
 mod compared;
 mod instruction;
 mod lower;
+mod narrow;
 mod print;
 mod tolerated;
 mod value;
 
 pub use compared::Cuts;
-pub use lower::flatten;
+pub use lower::{DEFAULT_SCAN_TIME, flatten, flatten_with};
 pub use print::literal;
 pub use tolerated::Tolerated;
 pub use value::value_text;
@@ -33,6 +34,8 @@ pub struct FlatProgram {
     pub variables: Vec<Variable>,
     /// The instructions in their order.
     pub code: Vec<Line>,
+    /// The time from one scan to the next in milliseconds, if a timer depends on it.
+    pub scan_time: Option<u64>,
 }
 
 /// A variable of an elementary type. Arrays, structures and instances are many of them, each with a name of its own like

@@ -1,109 +1,197 @@
-//! From syntax tree to checked program: names resolved, every static rule applied.
+//! From syntax tree to checked program: names resolved, values typed, every static rule applied.
 //!
-//! The static semantics is the list of files `rule_….rs`, one sentence each.
+//! Declarations become shapes ([`declare`]), names symbols ([`project`]), instructions typed statements ([`typing`]); what
+//! these cannot read they report. The rules beyond that are the files `rule_….rs`, one sentence each.
 
+mod constant;
 mod control_flow;
+mod declare;
+mod effect;
+mod function;
+mod inference;
+mod interval;
+mod library;
 mod program;
-mod resolve;
+mod project;
+mod shape;
 mod symbols;
 mod types;
+mod typing;
+mod uses;
 
 mod rule_constants_have_values;
 mod rule_constants_not_written;
 mod rule_control_outside_parentheses;
-mod rule_declarations_supported;
-mod rule_initial_values_fit;
 mod rule_inputs_not_written;
 mod rule_instructions_reachable;
+mod rule_jumps_forward;
 mod rule_labels_defined;
 mod rule_labels_unique;
 mod rule_labels_used;
-mod rule_names_declared;
-mod rule_names_unique;
-mod rule_operands_counted;
-mod rule_operands_fit;
-mod rule_operators_supported;
 mod rule_parentheses_begin_with_value;
 mod rule_result_defined;
-mod rule_types_supported;
+mod rule_results_used;
+mod rule_variables_used;
 
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
 
-pub use program::{Action, Condition, Function, Instruction, Operand, Program, Role, Statement, VarId, Variable};
+use std::collections::BTreeMap;
+
+pub use function::Function;
+pub use library::{CLOCK, RUNNING, text as library_text};
+pub use program::{
+    Action, Call, Callee, Condition, Enable, Feed, FeedSource, Index, Operand, Place, Pou, PouKind, Program, Role,
+    Root, Standard, StandardFunction, Statement, Step, TypeId, VarId, Variable,
+};
+pub use shape::{Enumeration, Member, PouId, Scalar, Shape, Structure, Value, elements};
+pub use symbols::{Area, Section};
 pub use types::{Kind, Type};
 
 use crate::diagnostic::{Code, Diagnostic, any_error};
-use crate::syntax::ast::{Pou, PouKind, Unit};
+use crate::source::Span;
+use crate::syntax::ast::{self, Name, Unit};
+use project::Project;
 use symbols::Symbols;
 
-/// What a rule looks at: the program, its names, and the file around it.
+/// What a rule looks at: a unit, its names, and the file around it.
 struct Context<'a> {
-    unit: &'a Unit,
-    pou: &'a Pou,
-    symbols: &'a Symbols<'a>,
+    project: &'a Project<'a>,
+    id: PouId,
+    pou: &'a ast::Pou,
+    symbols: &'a Symbols,
+    labels: BTreeMap<String, usize>,
 }
 
 /// A rule reports what breaks it.
 type Rule = fn(&Context<'_>) -> Vec<Diagnostic>;
 
-/// Every static rule. They are independent: each runs whatever the others found.
+/// The static rules. They are independent: each runs whatever the others found.
 const RULES: &[Rule] = &[
     rule_constants_have_values::apply,
     rule_constants_not_written::apply,
     rule_control_outside_parentheses::apply,
-    rule_declarations_supported::apply,
-    rule_initial_values_fit::apply,
     rule_inputs_not_written::apply,
     rule_instructions_reachable::apply,
+    rule_jumps_forward::apply,
     rule_labels_defined::apply,
     rule_labels_unique::apply,
     rule_labels_used::apply,
-    rule_names_declared::apply,
-    rule_names_unique::apply,
-    rule_operands_counted::apply,
-    rule_operands_fit::apply,
-    rule_operators_supported::apply,
     rule_parentheses_begin_with_value::apply,
     rule_result_defined::apply,
-    rule_types_supported::apply,
+    rule_results_used::apply,
+    rule_variables_used::apply,
 ];
 
-/// Checks the program of a file. It is `None` exactly if one of the diagnostics, or one found while reading the text, is
-/// an error; `clean` says that reading found none.
+/// Checks the program of a file with all it calls. It is `None` exactly if one of the diagnostics, or one found while
+/// reading the text, is an error; `clean` says that reading found none.
 #[must_use]
 pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
-    let mut diagnostics = Vec::new();
-    let pou = the_program(unit, &mut diagnostics);
-    let Some(pou) = pou else { return (None, diagnostics) };
-    let symbols = Symbols::of(pou);
-    let context = Context { unit, pou, symbols: &symbols };
-    diagnostics.extend(RULES.iter().flat_map(|rule| rule(&context)));
+    let (project, mut diagnostics, mut of_units) = Project::of(unit);
+    let Some(entry) = entry(&project, &mut diagnostics) else { return (None, diagnostics) };
+    let needed = project.reachable(entry, &mut diagnostics);
+    let mut pous: Vec<Pou> = project.pous.iter().enumerate().map(|(i, pou)| empty(&project, PouId(i), pou)).collect();
+    for &id in &needed {
+        let pou = project.pou(id);
+        if let Some((language, span)) = &pou.foreign {
+            diagnostics.push(foreign(pou, language, *span));
+            continue;
+        }
+        let labels = control_flow::labels(&pou.body);
+        let context = Context { project: &project, id, pou, symbols: project.symbols(id), labels };
+        let typed = typing::unit(&context);
+        if !project.is_library(id) {
+            diagnostics.append(&mut of_units[id.0]);
+            diagnostics.extend(typed.diagnostics);
+            diagnostics.extend(RULES.iter().flat_map(|rule| rule(&context)));
+        }
+        pous[id.0].body = typed.body;
+        pous[id.0].types = typed.types;
+        pous[id.0].literals = typed.literals;
+    }
+    diagnostics.extend(not_checked(&project, &needed));
+    let interval = interval::of(unit, &project.pou(entry).name, &mut diagnostics);
     diagnostics.sort_by_key(Diagnostic::span);
-    let program = (clean && !any_error(&diagnostics)).then(|| resolve::program(&context)).flatten();
-    (program, diagnostics)
+    diagnostics.dedup();
+    if !clean || any_error(&diagnostics) {
+        return (None, diagnostics);
+    }
+    let globals = variables(&project.globals);
+    (Some(Program { pous, entry, globals, interval }), diagnostics)
 }
 
-/// The one PROGRAM of the file. Other units are not called by it (calls are refused), so they are only mentioned.
-fn the_program<'a>(unit: &'a Unit, diagnostics: &mut Vec<Diagnostic>) -> Option<&'a Pou> {
-    let (programs, others): (Vec<&Pou>, Vec<&Pou>) = unit.pous.iter().partition(|pou| pou.kind == PouKind::Program);
-    let Some(&program) = programs.first() else {
-        let pou = others.first()?;
-        let message = format!("this file holds no program, only {} `{}`", pou.kind, pou.name.text);
-        diagnostics.push(
-            Diagnostic::new(Code::NothingToCheck, pou.name.span, message)
-                .help("add a `PROGRAM`: functions and function blocks do nothing by themselves"),
-        );
-        return None;
+/// The one PROGRAM of the file; where there is none, the last function block or function that no other calls.
+fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<PouId> {
+    let own = || project.unit.pous.iter().enumerate().map(|(i, pou)| (PouId(i), pou));
+    let mut programs = own().filter(|(_, pou)| pou.kind == PouKind::Program);
+    if let Some((id, program)) = programs.next() {
+        diagnostics.extend(programs.map(|(_, second)| {
+            Diagnostic::new(Code::SeveralPrograms, second.name.span, "this file declares a second program")
+                .also(program.name.span, "the first is here")
+                .help("put each program in a file of its own")
+        }));
+        return Some(id);
+    }
+    let is_called =
+        |id: PouId| own().any(|(other, _)| other != id && project.calls(other).iter().any(|(callee, _)| *callee == id));
+    let (id, pou) = own().filter(|(id, _)| !is_called(*id)).last().or_else(|| own().last())?;
+    let message = format!("this file holds no program, so {} `{}` is checked by itself", pou.kind, pou.name.text);
+    diagnostics.push(
+        Diagnostic::new(Code::CheckedByItself, pou.name.span, message)
+            .help("it is executed once in every scan, and its inputs may have any values"),
+    );
+    Some(id)
+}
+
+fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
+    let message = format!("`{}` is written in {language}, not in Instruction List", pou.name.text);
+    let help = match language {
+        "Structured Text" => "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`",
+        _ => "only Instruction List is read",
     };
-    diagnostics.extend(programs[1..].iter().map(|second| {
-        Diagnostic::new(Code::SeveralPrograms, second.name.span, "this file declares a second program")
-            .also(program.name.span, "the first is here")
-            .help("put each program in a file of its own")
-    }));
-    diagnostics.extend(others.iter().map(|pou| {
+    Diagnostic::new(Code::OtherLanguage, span, message).help(help)
+}
+
+/// Units of the file that are not needed.
+fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
+    let others =
+        project.unit.pous.iter().enumerate().filter(|(i, pou)| {
+            !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
+        });
+    others.map(|(_, pou)| {
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
         Diagnostic::new(Code::PouNotChecked, pou.name.span, message)
-    }));
-    Some(program)
+    })
+}
+
+fn empty(project: &Project<'_>, id: PouId, pou: &ast::Pou) -> Pou {
+    Pou {
+        name: pou.name.text.clone(),
+        kind: pou.kind,
+        is_library: project.is_library(id),
+        variables: variables(project.symbols(id)),
+        body: Vec::new(),
+        types: Vec::new(),
+        literals: Vec::new(),
+    }
+}
+
+fn variables(symbols: &Symbols) -> Vec<Variable> {
+    let variables = symbols.list().iter().map(|symbol| Variable {
+        name: symbol.name.clone(),
+        section: symbol.section,
+        // A broken declaration has been reported, and no program comes of it.
+        shape: symbol.shape.clone().unwrap_or(Shape::Scalar(Scalar::new(Type::BOOL))),
+        initial: symbol.initial.clone(),
+        area: symbol.area,
+        span: symbol.span,
+    });
+    variables.collect()
+}
+
+/// The label's instruction.
+fn target(labels: &BTreeMap<String, usize>, name: &Name) -> Option<usize> {
+    labels.get(&name.key()).copied()
 }

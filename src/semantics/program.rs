@@ -1,37 +1,66 @@
-//! The checked program: names resolved to variables, labels to positions.
+//! The checked program: names resolved to variables, labels to positions, every value typed.
 
+use super::function::Function;
+use super::shape::{PouId, Scalar, Shape, Value};
+use super::symbols::{Area, Section};
+use super::types::Type;
 use crate::source::Span;
-pub use crate::syntax::ast::Condition;
+pub use crate::syntax::ast::{Condition, PouKind};
 
-/// A program that satisfies every static rule.
+/// A program that satisfies every static rule, with all it calls.
 #[derive(Clone, Debug)]
 pub struct Program {
+    /// The units, in the order they were found; [`PouId`] is the position. Those that are not needed are empty.
+    pub pous: Vec<Pou>,
+    /// The one that is executed once in every scan.
+    pub entry: PouId,
+    /// The global variables.
+    pub globals: Vec<Variable>,
+    /// The time from one scan to the next, in milliseconds, if a task says so.
+    pub interval: Option<u64>,
+}
+
+/// A program organisation unit.
+#[derive(Clone, Debug)]
+pub struct Pou {
     /// Its name.
     pub name: String,
-    /// Its variables in the order of declaration; [`VarId`] is the position.
+    /// Program, function or function block.
+    pub kind: PouKind,
+    /// Whether it is one of the standard's, which have no text in the user's file.
+    pub is_library: bool,
+    /// Its variables in the order of declaration.
     pub variables: Vec<Variable>,
     /// Its instructions.
     pub body: Vec<Statement>,
+    /// What each [`TypeId`] of the body is.
+    pub types: Vec<Type>,
+    /// What each [`Operand::Literal`] of the body is, as a pattern.
+    pub literals: Vec<u64>,
 }
 
-/// A variable, as a position in the program's list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct VarId(pub usize);
-
-/// A Boolean variable.
+/// A variable of a unit.
 #[derive(Clone, Debug)]
 pub struct Variable {
     /// The name as it was declared.
     pub name: String,
-    /// What it is for.
-    pub role: Role,
-    /// Its value at power-on.
-    pub initial: bool,
-    /// Its declaration, if it has one.
-    pub span: Option<Span>,
+    /// In which block.
+    pub section: Section,
+    /// What it is.
+    pub shape: Shape,
+    /// Its value at power-on, or at each call.
+    pub initial: Value,
+    /// The area of its address.
+    pub area: Option<Area>,
+    /// Its declaration.
+    pub span: Span,
 }
 
-/// What a variable is for.
+/// A variable of flat code, as a position in the program's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct VarId(pub usize);
+
+/// What a variable of flat code is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// `VAR_INPUT`: given by the plant before every scan.
@@ -42,9 +71,13 @@ pub enum Role {
     Output,
     /// `CONSTANT`: never changes.
     Constant,
-    /// Made by flattening to hold a value while a parenthesis is computed; nothing of it survives the scan.
+    /// Holds a value for a while, like that of a parenthesis or of a function's variable; nothing of it survives the scan.
     Buffer,
 }
+
+/// A type, as a position in [`Pou::types`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TypeId(pub usize);
 
 /// An instruction and where it stands.
 #[derive(Clone, Debug)]
@@ -55,83 +88,219 @@ pub struct Statement {
     pub span: Span,
 }
 
-/// What a statement does.
+/// What an instruction does to the memory and the current result (CR).
 #[derive(Clone, Debug)]
 pub enum Action {
-    /// One instruction.
-    Plain(Instruction),
-    /// An operator deferred to the end of a parenthesis.
-    Defer {
-        /// The function.
-        function: Function,
-        /// Modifier N: the value of the parenthesis is complemented.
-        negated: bool,
-        /// Loaded before the instructions inside, if given.
-        first: Option<(Operand, Span)>,
-        /// The instructions inside.
-        body: Vec<Statement>,
-        /// The closing parenthesis.
-        close: Span,
-    },
-}
-
-/// What an instruction does to the memory and the current result (CR).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Instruction {
-    /// `LD`, `LDN`: CR := operand, complemented if `negated`.
+    /// `LD`, `LDN`
     Load {
+        /// The type of operand and CR.
+        ty: TypeId,
         /// Modifier N.
         negated: bool,
         /// What is loaded.
         operand: Operand,
     },
-    /// `ST`, `STN`: variable := CR, complemented if `negated`.
+    /// `ST`, `STN`
     Store {
+        /// The type of place and CR.
+        ty: TypeId,
         /// Modifier N.
         negated: bool,
         /// Where to.
-        variable: VarId,
+        place: Place,
     },
-    /// `S`: variable := TRUE if CR is TRUE.
-    Set(VarId),
-    /// `R`: variable := FALSE if CR is TRUE.
-    Reset(VarId),
-    /// `NOT`: CR := NOT CR.
-    Complement,
-    /// `AND`, `OR`, `XOR`: CR := CR function operand, the operand complemented if `negated`.
+    /// `S`
+    Set(Place),
+    /// `R`
+    Reset(Place),
+    /// `NOT`
+    Complement(TypeId),
+    /// An operator with its operand.
     Combine {
         /// The function.
         function: Function,
+        /// The type of CR and operand.
+        ty: TypeId,
         /// Modifier N.
         negated: bool,
         /// The right operand.
         operand: Operand,
     },
-    /// `JMP…` and `RET…`: go on at `target` if the condition holds of CR.
-    Jump {
-        /// When.
-        condition: Condition,
-        /// Position in the list the instruction belongs to, from 0; its length stands for the end.
-        target: usize,
+    /// An operator deferred to the end of a parenthesis.
+    Defer {
+        /// The function.
+        function: Function,
+        /// The type of CR and of the value of the parenthesis.
+        ty: TypeId,
+        /// Modifier N: the value of the parenthesis is complemented.
+        negated: bool,
+        /// The instructions inside.
+        body: Vec<Statement>,
+        /// The closing parenthesis.
+        close: Span,
     },
+    /// `JMP…`: go on at this position of the unit's body, its length standing for the end.
+    Jump(Condition, usize),
+    /// `RET…`
+    Return(Condition),
+    /// A call of a function block or of a function of the file.
+    Call(Box<Call>),
+    /// A standard function.
+    Standard(Box<Standard>),
 }
 
-/// The Boolean functions of two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
-    /// Conjunction.
-    And,
-    /// Disjunction.
-    Or,
-    /// Exclusive disjunction.
-    Xor,
-}
-
-/// Where an instruction takes its operand from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Where a value comes from.
+#[derive(Clone, Debug)]
 pub enum Operand {
-    /// The value of a variable.
-    Variable(VarId),
-    /// A literal.
-    Constant(bool),
+    /// A variable.
+    Place(Place),
+    /// A literal, as a position in [`Pou::literals`].
+    Literal(usize),
+}
+
+/// A variable or a part of one.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// The variable it is part of.
+    pub root: Root,
+    /// The way from there.
+    pub steps: Vec<Step>,
+    /// What it is.
+    pub shape: Shape,
+    /// Where it is named.
+    pub span: Span,
+}
+
+impl Place {
+    /// What is known of an elementary one; another has been refused where only such may stand.
+    #[must_use]
+    pub fn scalar(&self) -> Scalar {
+        self.shape.scalar().cloned().unwrap_or_else(|| Scalar::new(Type::BOOL))
+    }
+}
+
+/// A variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Root {
+    /// One of the unit's own, by position.
+    Own(usize),
+    /// A global one, by position.
+    Global(usize),
+}
+
+/// A step from a variable to a part of it.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// The member of a structure, or the variable of a function block, at this position.
+    Member(usize),
+    /// The element with these indices, one for each range.
+    Index(Vec<Index>),
+}
+
+/// One index.
+#[derive(Clone, Debug)]
+pub enum Index {
+    /// A number, inside its range.
+    Constant(i64),
+    /// An elementary variable.
+    Variable(Place),
+}
+
+/// A call.
+#[derive(Clone, Debug)]
+pub struct Call {
+    /// When it calls; parameters are handed over only then.
+    pub condition: Condition,
+    /// What is called.
+    pub callee: Callee,
+    /// The variable that CR is stored in first, and its type.
+    pub result_to: Option<(usize, TypeId)>,
+    /// Values for variables of the callee.
+    pub inputs: Vec<(usize, Feed)>,
+    /// Variables of the caller for the in-out variables of the callee.
+    pub in_outs: Vec<(usize, Place)>,
+    /// Variables of the caller that get outputs; complemented if `true`.
+    pub outputs: Vec<(usize, bool, Place)>,
+    /// `EN` and `ENO`.
+    pub enable: Enable,
+}
+
+/// What is called.
+#[derive(Clone, Debug)]
+pub enum Callee {
+    /// An instance of a function block.
+    Instance(PouId, Place),
+    /// A function.
+    Function(PouId),
+}
+
+/// The parameters `EN` and `ENO` of a call (2.5.1.2).
+#[derive(Clone, Debug, Default)]
+pub struct Enable {
+    /// Whether it is executed.
+    pub en: Option<Feed>,
+    /// Gets whether it was, complemented if `true`.
+    pub eno: Option<(bool, Place)>,
+}
+
+/// A value that is handed over, with its type.
+#[derive(Clone, Debug)]
+pub struct Feed {
+    /// Its type.
+    pub ty: TypeId,
+    /// Where it comes from.
+    pub source: FeedSource,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// Where a value that is handed over comes from.
+#[derive(Clone, Debug)]
+pub enum FeedSource {
+    /// The current result.
+    Result,
+    /// An operand.
+    Operand(Operand),
+    /// The result of a list.
+    List(Vec<Statement>),
+}
+
+/// A call of a standard function.
+#[derive(Clone, Debug)]
+pub struct Standard {
+    /// Which.
+    pub function: StandardFunction,
+    /// The type of its value.
+    pub ty: TypeId,
+    /// Its arguments in their order.
+    pub arguments: Vec<Feed>,
+    /// `EN` and `ENO`.
+    pub enable: Enable,
+}
+
+/// The standard functions that are not operators as well (2.5.1.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StandardFunction {
+    /// `X_TO_Y`
+    Convert,
+    /// `MOVE`
+    Move,
+    /// `NOT`
+    Not,
+    /// `ABS`
+    Abs,
+    /// `MIN`
+    Min,
+    /// `MAX`
+    Max,
+    /// `LIMIT(MN, IN, MX)`
+    Limit,
+    /// `SEL(G, IN0, IN1)`
+    Sel,
+    /// `MUX(K, IN0, …)`
+    Mux,
+    /// `ADD(IN1, IN2, …)`, `SHL(IN, N)`: CR function second, function third, ….
+    Fold(Function),
+    /// `GT(IN1, IN2, …)`: each compared with the next.
+    Chain(Function),
 }

@@ -3,17 +3,20 @@
 //! Passes: `VAR CONSTANT k : BOOL := TRUE; END_VAR`.
 //! Fails: `VAR CONSTANT k : BOOL; END_VAR`.
 
-use super::{Context, Role};
+use super::{Context, Section};
 use crate::diagnostic::{Code, Diagnostic};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
-    let constants = context.symbols.list().iter().filter(|symbol| symbol.role == Some(Role::Constant));
+    let constants = context.symbols.list().iter().filter(|symbol| symbol.section == Section::Constant);
     constants
-        .filter(|symbol| symbol.initial.is_none())
+        .filter(|symbol| !symbol.is_given)
         .map(|symbol| {
-            let message = format!("the constant `{}` has no value", symbol.name.text);
-            Diagnostic::new(Code::ConstantWithoutValue, symbol.name.span, message)
-                .help("it is FALSE; write `:= FALSE` if that is meant")
+            let message = format!("the constant `{}` has no value", symbol.name);
+            let is_bool =
+                symbol.shape.as_ref().and_then(|shape| shape.scalar()).is_some_and(|scalar| scalar.ty.is_bool());
+            let zero = if is_bool { "FALSE" } else { "0" };
+            Diagnostic::new(Code::ConstantWithoutValue, symbol.span, message)
+                .help(format!("it is {zero}; write `:= {zero}` if that is meant"))
         })
         .collect()
 }

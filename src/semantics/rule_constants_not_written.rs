@@ -3,15 +3,15 @@
 //! Passes: `LD constant`.
 //! Fails: `ST constant`.
 
-use super::{Context, Role};
+use super::{Context, Section};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::semantics::rule_inputs_not_written::writes;
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
-    writes(context, Role::Constant)
-        .map(|(name, declared)| {
-            let message = format!("the constant `{}` is written", name.text);
-            Diagnostic::new(Code::ConstantWritten, name.span, message)
+    writes(context, Section::Constant)
+        .map(|(path, declared)| {
+            let message = format!("the constant `{path}` is written");
+            Diagnostic::new(Code::ConstantWritten, path.span, message)
                 .also(declared, "declared as a constant here")
                 .help("declare it in `VAR` if it changes")
         })

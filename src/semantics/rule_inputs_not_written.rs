@@ -3,33 +3,35 @@
 //! Passes: `ST memory`, `S output`.
 //! Fails: `ST input`, `R input`.
 
-use super::{Context, Role};
+use super::shape::Shape;
+use super::{Area, Context, Section, uses};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{Name, Operand, Operation, Verb, with_nested};
+use crate::source::Span;
+use crate::syntax::ast::Path;
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
-    writes(context, Role::Input)
-        .map(|(name, declared)| {
-            let message = format!("the input `{}` is written", name.text);
-            Diagnostic::new(Code::InputWritten, name.span, message)
+    writes(context, Section::Input)
+        .map(|(path, declared)| {
+            let message = format!("the input `{path}` is written");
+            Diagnostic::new(Code::InputWritten, path.span, message)
                 .also(declared, "declared as an input here")
                 .help("declare it in `VAR` or `VAR_OUTPUT` if the program decides its value")
         })
         .collect()
 }
 
-/// The operands that are written although they have this role, each with its declaration.
-pub(super) fn writes<'a>(
-    context: &'a Context<'_>,
-    role: Role,
-) -> impl Iterator<Item = (&'a Name, crate::source::Span)> {
-    with_nested(&context.pou.body).filter_map(move |(instruction, _)| {
-        let Some(Operation::Simple { operator, operands }) = &instruction.operation else { return None };
-        let Some(Operand::Variable(name)) = operands.first() else { return None };
-        let (_, symbol) = context.symbols.find(&name.text)?;
-        let writes = matches!(operator.verb, Verb::St | Verb::S | Verb::R);
-        (writes && symbol.role == Some(role)).then_some((name, symbol.name.span))
-    })
+/// What is written although it is declared in this section, each with its declaration. A variable at `%I…` is an input.
+pub(super) fn writes<'a>(context: &Context<'a>, section: Section) -> impl Iterator<Item = (&'a Path, Span)> {
+    let mut found = Vec::new();
+    for (path, _) in uses::paths(context).into_iter().filter(|(_, writes)| *writes) {
+        let Some((_, _, symbol)) = context.project.variable(context.id, &path.root.text) else { continue };
+        let is_instance = matches!(symbol.shape, Some(Shape::Instance(_)));
+        let is_input = section == Section::Input && symbol.area == Some(Area::Input);
+        if (symbol.section == section || is_input) && !is_instance {
+            found.push((path, symbol.span));
+        }
+    }
+    found.into_iter()
 }
 
 #[cfg(test)]

@@ -39,6 +39,7 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
 fn begins_with_value(instruction: &Instruction) -> bool {
     match &instruction.operation {
         Some(Operation::Simple { operator, .. }) => operator.verb == Verb::Ld,
+        Some(Operation::Function { arguments, .. }) => arguments.enclosed,
         Some(Operation::Parenthesis { .. }) => false,
         _ => true,
     }

@@ -6,17 +6,18 @@
 use petgraph::Direction;
 use petgraph::graph::NodeIndex;
 
+use super::effect::{Leaves, effect};
 use super::{Context, control_flow};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{Condition, Instruction, Operation, Verb};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let body = &context.pou.body;
-    let undefined_after = undefined_after(body);
+    let effects: Vec<(bool, Leaves)> = body.iter().map(|instruction| effect(instruction, context)).collect();
     let graph = control_flow::graph(body);
+    let undefined_after = undefined_after(&effects, &graph);
     let reachable = control_flow::reachable(&graph);
     let mut found = Vec::new();
-    for (i, instruction) in body.iter().enumerate().filter(|&(i, instruction)| reachable[i] && uses(instruction)) {
+    for (i, instruction) in body.iter().enumerate().filter(|&(i, _)| reachable[i] && effects[i].0) {
         let culprits = graph.neighbors_directed(NodeIndex::new(i), Direction::Incoming);
         let culprit = culprits.map(NodeIndex::index).filter(|&p| reachable[p] && undefined_after[p]).min();
         if i > 0 && culprit.is_none() {
@@ -25,6 +26,9 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
         let message = "the current result may have no value here";
         let diagnostic = Diagnostic::new(Code::ResultUndefined, instruction.span, message).here("uses it");
         let diagnostic = match culprit {
+            Some(p) if effects[p].1 == Leaves::Nothing => {
+                diagnostic.also(body[p].span, "a call of a function block leaves none (IEC 61131-3, 3.2.3)")
+            }
             Some(p) => diagnostic.also(body[p].span, "control comes from here without a value"),
             None => diagnostic,
         };
@@ -35,12 +39,16 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
 
 /// For each instruction, whether control can leave it while the current result has no value. A use gives it one here,
 /// so that one missing load is one diagnostic.
-fn undefined_after(body: &[Instruction]) -> Vec<bool> {
-    let graph = control_flow::graph(body);
-    let mut undefined = vec![false; body.len() + 1];
-    let mut work = vec![NodeIndex::new(0)];
+fn undefined_after(effects: &[(bool, Leaves)], graph: &control_flow::ControlFlow) -> Vec<bool> {
+    let mut undefined = vec![false; effects.len() + 1];
+    let calls = (0..effects.len()).filter(|&i| effects[i].1 == Leaves::Nothing);
+    let mut work: Vec<NodeIndex> = [0].into_iter().chain(calls).map(NodeIndex::new).collect();
     while let Some(node) = work.pop() {
-        let gives_value = body.get(node.index()).is_none_or(|i| uses(i) || loads(i));
+        let gives_value = match effects.get(node.index()) {
+            Some((_, Leaves::Nothing)) => false,
+            Some((uses, leaves)) => *uses || *leaves == Leaves::Value,
+            None => true,
+        };
         if gives_value || undefined[node.index()] {
             continue;
         }
@@ -48,24 +56,6 @@ fn undefined_after(body: &[Instruction]) -> Vec<bool> {
         work.extend(graph.neighbors(node));
     }
     undefined
-}
-
-fn loads(instruction: &Instruction) -> bool {
-    match &instruction.operation {
-        Some(Operation::Simple { operator, .. }) => operator.verb == Verb::Ld,
-        // What these leave behind is for the rule that refuses them.
-        Some(Operation::Call { .. } | Operation::Function { .. } | Operation::Broken) => true,
-        _ => false,
-    }
-}
-
-fn uses(instruction: &Instruction) -> bool {
-    match &instruction.operation {
-        Some(Operation::Simple { operator, .. }) => operator.verb != Verb::Ld,
-        Some(Operation::Parenthesis { .. }) => true,
-        Some(Operation::Jump { condition, .. } | Operation::Return { condition }) => *condition != Condition::Always,
-        Some(Operation::Call { .. } | Operation::Function { .. } | Operation::Broken) | None => false,
-    }
 }
 
 #[cfg(test)]

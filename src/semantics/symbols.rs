@@ -1,66 +1,117 @@
-//! The names a program declares.
+//! The names a program organisation unit declares.
 
 use std::collections::BTreeMap;
 
-use super::program::{Role, VarId};
-use crate::syntax::ast::{Constant, Name, Pou, VarBlock, VarKind, key};
+use super::shape::{Shape, Value};
+use crate::source::Span;
+use crate::syntax::ast::key;
 
-/// The declared names of a program, in the order of the text. Of a name declared twice the first declaration counts.
-pub struct Symbols<'a> {
-    list: Vec<Symbol<'a>>,
-    by_key: BTreeMap<String, VarId>,
+/// Where a variable is declared, which says who may write it and how long it lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Section {
+    /// `VAR_INPUT`
+    Input,
+    /// `VAR_OUTPUT`
+    Output,
+    /// `VAR_IN_OUT`: stands for a variable of the caller.
+    InOut,
+    /// `VAR`, `VAR_GLOBAL`
+    Local,
+    /// `VAR_TEMP`: begins anew with every call.
+    Temp,
+    /// `CONSTANT`
+    Constant,
+    /// The result of a function.
+    Result,
+    /// `VAR_EXTERNAL`: stands for the global variable of this position.
+    External(usize),
+}
+
+/// The area of an address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Area {
+    /// `%I`
+    Input,
+    /// `%Q`
+    Output,
+    /// `%M`
+    Memory,
 }
 
 /// A declared name.
-pub struct Symbol<'a> {
-    pub name: &'a Name,
-    /// `None` where the declaration is broken, or of a kind or type that is not supported, which is reported elsewhere.
-    pub role: Option<Role>,
-    pub initial: Option<&'a Constant>,
+#[derive(Clone, Debug)]
+pub struct Symbol {
+    /// As it was declared.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// In which block.
+    pub section: Section,
+    /// What it is; `None` where that cannot be told, which has been reported.
+    pub shape: Option<Shape>,
+    /// Its value at power-on.
+    pub initial: Value,
+    /// Whether a value was written.
+    pub is_given: bool,
+    /// The area of its address, if it has one.
+    pub area: Option<Area>,
 }
 
-impl<'a> Symbols<'a> {
-    pub fn of(pou: &'a Pou) -> Self {
-        let mut symbols = Self { list: Vec::new(), by_key: BTreeMap::new() };
-        for block in &pou.blocks {
-            for declaration in &block.declarations {
-                let is_bool = declaration.type_text.as_ref().is_some_and(|written| key(&written.text) == "BOOL");
-                let role = role(block).filter(|_| is_bool);
-                for name in &declaration.names {
-                    let id = VarId(symbols.list.len());
-                    symbols.by_key.entry(name.key()).or_insert_with(|| {
-                        symbols.list.push(Symbol { name, role, initial: declaration.initial.as_ref() });
-                        id
-                    });
-                }
+/// The declared names, in the order of the text. Of a name declared twice the first declaration counts.
+#[derive(Clone, Debug, Default)]
+pub struct Symbols {
+    list: Vec<Symbol>,
+    by_key: BTreeMap<String, usize>,
+    by_address: BTreeMap<String, usize>,
+}
+
+impl Symbols {
+    /// Adds a symbol, unless there is one of this name: then this is its position.
+    pub fn add(&mut self, symbol: Symbol) -> Result<usize, usize> {
+        let position = self.list.len();
+        match self.by_key.entry(key(&symbol.name)) {
+            std::collections::btree_map::Entry::Occupied(first) => Err(*first.get()),
+            std::collections::btree_map::Entry::Vacant(entry) => {
+                entry.insert(position);
+                self.list.push(symbol);
+                Ok(position)
             }
         }
-        symbols
     }
 
-    /// The symbols in the order of declaration: position = [`VarId`].
-    pub fn list(&self) -> &[Symbol<'a>] {
+    /// Gives a symbol an address, unless another one has it: then this is its position.
+    pub fn locate(&mut self, address: String, position: usize) -> Result<(), usize> {
+        match self.by_address.insert(address, position) {
+            Some(first) if first != position => Err(first),
+            _ => Ok(()),
+        }
+    }
+
+    /// The symbols in the order of declaration.
+    pub fn list(&self) -> &[Symbol] {
         &self.list
     }
 
-    /// The symbol of a name, however it is spelt.
-    pub fn find(&self, name: &str) -> Option<(VarId, &Symbol<'a>)> {
-        let id = *self.by_key.get(&key(name))?;
-        Some((id, &self.list[id.0]))
+    /// The symbol of a name or address, however it is spelt.
+    pub fn find(&self, name: &str) -> Option<(usize, &Symbol)> {
+        let position = match name.strip_prefix('%') {
+            Some(_) => *self.by_address.get(&address(name))?,
+            None => *self.by_key.get(&key(name))?,
+        };
+        Some((position, &self.list[position]))
     }
 
     /// The names as declared, for suggestions.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.list.iter().map(|symbol| symbol.name.text.as_str())
+        self.list.iter().map(|symbol| symbol.name.as_str())
     }
 }
 
-fn role(block: &VarBlock) -> Option<Role> {
-    match (block.kind, block.constant) {
-        (VarKind::Local, false) => Some(Role::Memory),
-        (VarKind::Local, true) => Some(Role::Constant),
-        (VarKind::Input, false) => Some(Role::Input),
-        (VarKind::Output, false) => Some(Role::Output),
-        _ => None,
+/// An address in the one spelling that all its spellings share: `%ix0.0` and `%I0.0` are `%I0.0`.
+pub fn address(text: &str) -> String {
+    let text = key(text);
+    match text.as_bytes() {
+        [b'%', _, b'X', ..] => format!("{}{}", &text[..2], &text[3..]),
+        _ => text,
     }
 }

@@ -29,13 +29,21 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::operand | Rule::constant | Rule::variable | Rule::symbolic_variable => "an operand",
         Rule::operator | Rule::expr_operator | Rule::instruction => "an instruction",
         Rule::label => "a label",
-        Rule::type_text | Rule::result_type => "a type",
-        Rule::initial | Rule::other_initial => "an initial value",
+        Rule::type_spec
+        | Rule::type_name
+        | Rule::other_type
+        | Rule::array
+        | Rule::structure
+        | Rule::enumeration
+        | Rule::subrange => "a type",
+        Rule::initial | Rule::initial_list | Rule::initial_structure => "an initial value",
         Rule::colon => "`:`",
         Rule::assign => "`:=`",
         Rule::semicolon => "`;`",
         Rule::declaration => "a declaration like `a : BOOL;`",
-        Rule::argument | Rule::arguments => "a parameter",
+        Rule::argument | Rule::arguments | Rule::named | Rule::negated_output => "a parameter",
+        Rule::range => "a range like `0..9`",
+        Rule::type_declaration => "a type like `Level : INT (0..100);`",
         _ => return None,
     })
 }

@@ -2,10 +2,14 @@
 
 use pest::iterators::Pair;
 
-use super::{boolean, first_word, name, other_language, span, var_block};
+use super::declarations::var_block;
+use super::operands::{argument, operand, path};
+use super::{first_word, name, span};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Condition, Constant, Instruction, Name, Operand, Operation, Operator, VarBlock, Verb};
+use crate::syntax::ast::{
+    Argument, Arguments, Condition, Instruction, Name, Operand, Operation, Operator, VarBlock, Verb,
+};
 use crate::syntax::expected;
 use crate::syntax::parse::Rule;
 
@@ -15,11 +19,6 @@ const MAX_DEPTH: usize = 200;
 
 /// The pair of the rule `body`: its instructions, and declaration blocks that stand between them.
 pub fn body(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> (Vec<Instruction>, Vec<VarBlock>) {
-    if let Some(refusal) = other_language::refuse(pair.clone()) {
-        let broken = Instruction { label: None, operation: Some(Operation::Broken), span: refusal.span() };
-        diagnostics.push(refusal);
-        return (vec![broken], Vec::new());
-    }
     let mut list = ListBuilder::default();
     let mut blocks = Vec::new();
     for piece in pair.into_inner() {
@@ -175,7 +174,7 @@ impl ListBuilder {
     }
 }
 
-fn operation(pair: Pair<'_, Rule>) -> Operation {
+pub fn operation(pair: Pair<'_, Rule>) -> Operation {
     let rule = pair.as_rule();
     let word = first_word(&pair);
     let suffix = |stem: &str| match word.key().trim_start_matches(stem) {
@@ -184,30 +183,38 @@ fn operation(pair: Pair<'_, Rule>) -> Operation {
         _ => Condition::Always,
     };
     let mut pieces = pair.into_inner();
-    let Some(first) = pieces.next() else { return Operation::Function { name: word } };
+    let Some(first) = pieces.next() else { return Operation::Broken };
     match rule {
         Rule::jump => {
             let target = pieces.next().map_or_else(|| word.clone(), |p| name(&p));
             Operation::Jump { condition: suffix("JMP"), target }
         }
         Rule::ret => Operation::Return { condition: suffix("RET") },
-        Rule::call => Operation::Call { callee: pieces.next().map_or_else(|| word.clone(), |p| name(&p)) },
-        Rule::simple if first.as_rule() == Rule::operator => {
+        Rule::call => match pieces.next() {
+            Some(callee) => Operation::Call {
+                condition: suffix("CAL"),
+                callee: path(callee),
+                arguments: Arguments { list: arguments(pieces.next()), enclosed: true },
+            },
+            None => Operation::Broken,
+        },
+        Rule::formal_call => Operation::Function {
+            name: name(&first),
+            arguments: Arguments { list: arguments(pieces.next()), enclosed: true },
+        },
+        _ if first.as_rule() == Rule::operator => {
             Operation::Simple { operator: operator(first.as_str()), operands: pieces.filter_map(operand).collect() }
         }
-        _ => Operation::Function { name: name(&first) },
+        _ => {
+            let list = pieces.filter_map(operand).map(Argument::Positional).collect();
+            Operation::Function { name: name(&first), arguments: Arguments { list, enclosed: false } }
+        }
     }
 }
 
-fn operand(pair: Pair<'_, Rule>) -> Option<Operand> {
-    let piece = pair.into_inner().next()?;
-    let (rule, name) = (piece.as_rule(), name(&piece));
-    if rule == Rule::variable {
-        return Some(Operand::Variable(name));
-    }
-    let is_boolean = piece.into_inner().next().is_some_and(|p| p.as_rule() == Rule::boolean);
-    let boolean = is_boolean.then(|| boolean(&name.text));
-    Some(Operand::Constant(Constant { text: name.text, boolean, span: name.span }))
+/// The pair of the rule `arguments`.
+fn arguments(pair: Option<Pair<'_, Rule>>) -> Vec<Argument> {
+    pair.into_iter().flat_map(Pair::into_inner).filter_map(argument).collect()
 }
 
 /// The operator of a word that the grammar has read as one.

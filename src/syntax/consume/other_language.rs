@@ -1,9 +1,9 @@
-//! Bodies in the standard's other textual languages: one thing to say of them, not one for each line.
+//! Bodies in the standard's other textual languages: there is one thing to say of them, not one for each line.
 
 use pest::iterators::Pair;
 
 use super::{first_word, span};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
 use crate::syntax::parse::Rule;
 
 /// Words that begin a line of Structured Text and no instruction.
@@ -26,24 +26,22 @@ const STRUCTURED_TEXT: [&str; 13] = [
 /// The same for Sequential Function Charts.
 const CHARTS: [&str; 7] = ["INITIAL_STEP", "STEP", "END_STEP", "TRANSITION", "END_TRANSITION", "ACTION", "END_ACTION"];
 
-/// Reports the first line of a body that is clearly of another language.
-pub fn refuse(body: Pair<'_, Rule>) -> Option<Diagnostic> {
+/// The language of a body that is clearly no Instruction List, and the line that shows it.
+pub fn recognize(body: Pair<'_, Rule>) -> Option<(String, Span)> {
     let lines = body.into_inner().filter(|piece| matches!(piece.as_rule(), Rule::instruction | Rule::bad_line));
-    lines.into_iter().find_map(|line| refuse_line(&line))
+    lines.into_iter().find_map(|line| Some((language(&line)?.to_owned(), span(&line))))
 }
 
-fn refuse_line(line: &Pair<'_, Rule>) -> Option<Diagnostic> {
+fn language(line: &Pair<'_, Rule>) -> Option<&'static str> {
     let word = first_word(line).key();
     let word = word.trim_end_matches(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
-    let (language, help) = if STRUCTURED_TEXT.contains(&word) || is_assignment(line) {
-        ("Structured Text", "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`")
+    if STRUCTURED_TEXT.contains(&word) || is_assignment(line) {
+        Some("Structured Text")
     } else if CHARTS.contains(&word) {
-        ("a Sequential Function Chart", "only Instruction List is read")
+        Some("a Sequential Function Chart")
     } else {
-        return None;
-    };
-    let message = format!("this is {language}, not Instruction List");
-    Some(Diagnostic::new(Code::Syntax, span(line), message).help(help))
+        None
+    }
 }
 
 /// `name := value`; in Instruction List `:=` stands inside parentheses only.

@@ -1,0 +1,92 @@
+//! Variables that flattening makes for itself.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Lowering;
+use crate::flat::Variable;
+use crate::semantics::{PouId, Role, Type, VarId};
+use crate::syntax::ast::key;
+
+use super::places::Address;
+
+/// The buffers made so far.
+#[derive(Default)]
+pub struct Buffers {
+    /// Names that are taken.
+    taken: BTreeSet<String>,
+    /// How many letters have been tried.
+    letters: usize,
+    /// Holds the current result while the parenthesis of this depth is computed.
+    left: BTreeMap<(Type, usize), VarId>,
+    /// Holds the value of a parenthesis until its operator takes it.
+    right: BTreeMap<Type, VarId>,
+    /// Buffers that nothing needs at the moment.
+    free: BTreeMap<(Type, u32), Vec<VarId>>,
+    /// The variables of functions, and those of function blocks that begin anew with each call.
+    pub units: BTreeMap<PouId, Vec<Option<Address>>>,
+}
+
+impl Buffers {
+    /// Notes that a name is taken.
+    pub fn take(&mut self, name: &str) {
+        self.taken.insert(key(name));
+    }
+}
+
+impl Lowering<'_> {
+    /// The buffers of a parenthesis at a depth: for the result before it, and for its own value.
+    pub fn parenthesis_buffers(&mut self, ty: Type, depth: usize) -> (VarId, VarId) {
+        let left = match self.buffers.left.get(&(ty, depth)) {
+            Some(&left) => left,
+            None => {
+                let left = self.fresh(ty, ty.width);
+                self.buffers.left.insert((ty, depth), left);
+                left
+            }
+        };
+        let right = match self.buffers.right.get(&ty) {
+            Some(&right) => right,
+            None => self.fresh(ty, ty.width),
+        };
+        self.buffers.right.insert(ty, right);
+        (left, right)
+    }
+
+    /// A buffer of so many stored bits, until it is released.
+    pub fn acquire(&mut self, ty: Type, bits: u32) -> VarId {
+        match self.buffers.free.get_mut(&(ty, bits)).and_then(Vec::pop) {
+            Some(buffer) => buffer,
+            None => self.fresh(ty, bits),
+        }
+    }
+
+    /// Gives a buffer back.
+    pub fn release(&mut self, buffer: VarId) {
+        let variable = &self.variables[buffer.0];
+        self.buffers.free.entry((variable.ty, variable.bits)).or_default().push(buffer);
+    }
+
+    /// A name like this one that is not taken.
+    pub fn unused(&mut self, name: &str) -> String {
+        let numbered = (1..).map(|number| format!("{name}_{number}"));
+        let mut names = [name.to_owned()].into_iter().chain(numbered);
+        let name = names.find(|name| !self.buffers.taken.contains(&key(name))).unwrap_or_default();
+        self.buffers.take(&name);
+        name
+    }
+
+    /// A new variable named by the first of A, B, …, Z, A1, B1, … that is not taken.
+    fn fresh(&mut self, ty: Type, bits: u32) -> VarId {
+        let name = loop {
+            let letter = char::from(b'A' + (self.buffers.letters % 26) as u8);
+            let round = self.buffers.letters / 26;
+            let name = if round == 0 { letter.to_string() } else { format!("{letter}{round}") };
+            self.buffers.letters += 1;
+            if self.buffers.taken.insert(key(&name)) {
+                break name;
+            }
+        };
+        self.variables.push(Variable { name, role: Role::Buffer, ty, bits, initial: 0, span: None });
+        VarId(self.variables.len() - 1)
+    }
+}

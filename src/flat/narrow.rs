@@ -1,0 +1,95 @@
+//! How many bits of each variable can ever be other than 0.
+
+use std::collections::BTreeSet;
+
+use super::{FlatProgram, Instruction, Operand, Target};
+use crate::semantics::{Role, VarId};
+
+/// A timer's clock, which stays below its preset time plus one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Timer {
+    /// The clock.
+    pub clock: VarId,
+    /// The preset time.
+    pub preset: VarId,
+    /// What the clock advances by in one scan, in milliseconds.
+    pub step: u64,
+}
+
+/// Narrows the variables that are only given constants and copies: `preset := T#200ms` needs 8 bits, not 32.
+pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
+    let targets: BTreeSet<usize> = program
+        .code
+        .iter()
+        .filter_map(|line| match line.instruction {
+            Instruction::Jump { target, .. } => Some(target),
+            _ => None,
+        })
+        .collect();
+    let mask = |id: usize| u64::MAX >> (64 - program.variables[id].bits);
+    let mut greatest: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
+    for (id, variable) in program.variables.iter().enumerate() {
+        if variable.role == Role::Input {
+            greatest[id] = mask(id);
+        }
+    }
+    // Who gets a copy of each variable, and with how much more.
+    let mut copies: Vec<Vec<(usize, u64)>> = vec![Vec::new(); program.variables.len()];
+    let clocks: BTreeSet<usize> = timers.iter().map(|timer| timer.clock.0).collect();
+    for timer in timers {
+        copies[timer.preset.0].push((timer.clock.0, timer.step));
+    }
+    for (line, code) in program.code.iter().enumerate() {
+        let Instruction::Store { target, negated, .. } = code.instruction else { continue };
+        let written = variables(target);
+        match source(program, line, &targets).filter(|_| !negated) {
+            Some(Operand::Constant(pattern)) => {
+                written.iter().for_each(|&id| greatest[id] = greatest[id].max(pattern));
+            }
+            Some(Operand::Place(read)) => {
+                for from in variables(read) {
+                    copies[from].extend(written.iter().map(|&id| (id, 0)));
+                }
+            }
+            None => {
+                let computed = written.iter().filter(|id| !clocks.contains(id));
+                computed.for_each(|&id| greatest[id] = mask(id));
+            }
+        }
+    }
+    let mut work: Vec<usize> = (0..greatest.len()).collect();
+    while let Some(from) = work.pop() {
+        for &(to, more) in &copies[from] {
+            // What is as wide as its type may be negative; then nothing is known.
+            let value = greatest[from].saturating_add(more).min(mask(to));
+            if value > greatest[to] {
+                greatest[to] = value;
+                work.push(to);
+            }
+        }
+    }
+    for (variable, greatest) in program.variables.iter_mut().zip(greatest) {
+        variable.bits = variable.bits.min((u64::BITS - greatest.leading_zeros()).max(1));
+    }
+}
+
+/// What the current result was loaded from when a line stores it, if no other line can have changed it.
+fn source(program: &FlatProgram, line: usize, targets: &BTreeSet<usize>) -> Option<Operand> {
+    let mut at = line;
+    while !targets.contains(&at) && at > 0 {
+        at -= 1;
+        match program.code[at].instruction {
+            Instruction::Load { negated: false, operand, .. } => return Some(operand),
+            Instruction::Store { .. } | Instruction::Bound { .. } => {}
+            _ => return None,
+        }
+    }
+    None
+}
+
+fn variables(target: Target) -> Vec<usize> {
+    match target {
+        Target::Variable(variable) => vec![variable.0],
+        Target::Element(element) => element.all().map(|id| id.0).collect(),
+    }
+}

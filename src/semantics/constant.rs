@@ -1,0 +1,46 @@
+//! What a literal means as a value of a type.
+
+use super::shape::Scalar;
+use super::types::{Kind, Type};
+use crate::syntax::ast::{Constant, Literal};
+
+/// Why a literal is no value of a type, as the end of a sentence that begins with the literal.
+pub type Unfit = String;
+
+/// The number of a literal as one of a type.
+///
+/// # Errors
+/// Why it is none.
+pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
+    let ty = scalar.ty;
+    let none = || format!("is no value of type `{scalar}`");
+    let number = match (constant.literal.as_ref(), &scalar.enumeration) {
+        (None, _) => return Err("is no literal that can be read".to_owned()),
+        (Some(Literal::Other(what)), _) => return Err(format!("is {what}, which is not modelled")),
+        (Some(Literal::Enumerated(prefix, name)), Some(enumeration))
+            if enumeration.name.eq_ignore_ascii_case(prefix) =>
+        {
+            enumeration.find(name).ok_or_else(|| format!("is none of the values of `{}`", enumeration.name))? as i128
+        }
+        (_, Some(_)) | (Some(Literal::Enumerated(..)), None) => return Err(none()),
+        (Some(Literal::Boolean(value)), None) if ty.is_bool() => i128::from(*value),
+        (Some(Literal::Time(micros)), None) if ty.kind == Kind::Time => milliseconds(*micros)?,
+        (Some(Literal::Typed(name, value)), None) if Type::named(name) == Some(ty) => *value,
+        (Some(Literal::Integer(value)), None) if ty.kind != Kind::Time => *value,
+        _ => return Err(none()),
+    };
+    if !ty.holds(number) {
+        let (least, greatest) = (ty.least(), ty.greatest());
+        return Err(format!("is no value of type `{ty}`, which goes from {least} to {greatest}"));
+    }
+    match scalar.range {
+        Some((lower, upper)) if !(lower..=upper).contains(&number) => Err(format!("is outside {lower}..{upper}")),
+        _ => Ok(number),
+    }
+}
+
+/// Microseconds in whole milliseconds.
+pub fn milliseconds(micros: i128) -> Result<i128, Unfit> {
+    let whole = micros % 1000 == 0;
+    whole.then_some(micros / 1000).ok_or_else(|| "is no whole number of milliseconds".to_owned())
+}

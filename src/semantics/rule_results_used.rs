@@ -1,0 +1,46 @@
+//! What is computed is used: stored, tested, or handed over.
+//!
+//! Passes: `LD a`, `AND b`, `ST c`.
+//! Fails: `LD a`, `AND b`, `LD c`: the conjunction is lost.
+
+use petgraph::graph::NodeIndex;
+
+use super::effect::{Leaves, effect};
+use super::{Context, control_flow};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::ast::Operation;
+
+pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
+    let body = &context.pou.body;
+    if !control_flow::is_known(body) {
+        return Vec::new();
+    }
+    let graph = control_flow::graph(body);
+    let reachable = control_flow::reachable(&graph);
+    let effects: Vec<(bool, Leaves)> = body.iter().map(|instruction| effect(instruction, context)).collect();
+    let needed = super::typing::needed(body, context);
+    let lost = body.iter().enumerate().filter(|&(i, instruction)| {
+        let gives = effects[i].1 == Leaves::Value && !matches!(instruction.operation, Some(Operation::Broken));
+        gives && reachable[i] && !graph.neighbors(NodeIndex::new(i)).any(|next| needed[next.index()])
+    });
+    // A function of the file may be called for its outputs.
+    let lost = lost.filter(|(_, instruction)| !matches!(instruction.operation, Some(Operation::Function { .. })));
+    lost.map(|(_, instruction)| {
+        Diagnostic::new(Code::ResultNotUsed, instruction.span, "the value computed here is never used")
+            .help("store it with `ST`, or remove the instructions that compute it")
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Code;
+    use crate::semantics::testing::{lines, program};
+
+    #[test]
+    fn lost_values_are_reported_where_they_are_complete() {
+        assert_eq!(lines(Code::ResultNotUsed, &program("LD i\nAND j\nLD m\nST q\nLD i\nAND( j\n)")), [3, 7]);
+        assert_eq!(lines(Code::ResultNotUsed, &program("LD i\nJMPC on\nLD j\non: ST q\nLD m\nJMPC end\nend:")), [0; 0]);
+        assert_eq!(lines(Code::ResultNotUsed, &program("LD i\nST q\nST m")), [0; 0], "it may be stored twice");
+    }
+}

@@ -1,0 +1,152 @@
+//! The types of variables: elementary ones, what is made of them, and function blocks.
+
+use std::fmt;
+use std::rc::Rc;
+
+use super::types::Type;
+
+/// A program organisation unit, as a position in [`Program::pous`](super::Program::pous).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PouId(pub usize);
+
+/// What a variable is made of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One value.
+    Scalar(Scalar),
+    /// `ARRAY [ranges] OF of`
+    Array {
+        /// The least and greatest index of each dimension.
+        ranges: Vec<(i64, i64)>,
+        /// What the elements are.
+        of: Box<Shape>,
+    },
+    /// `STRUCT … END_STRUCT`
+    Structure(Rc<Structure>),
+    /// An instance of a function block.
+    Instance(PouId),
+}
+
+/// A structure's members.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Structure {
+    /// The name it was declared by, if it has one.
+    pub name: String,
+    /// In the order of declaration.
+    pub members: Vec<Member>,
+}
+
+/// A member of a structure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Member {
+    /// Its name as it was declared.
+    pub name: String,
+    /// What it is.
+    pub shape: Shape,
+    /// Its value at power-on.
+    pub initial: Value,
+}
+
+/// An elementary type and what is allowed of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Scalar {
+    /// The elementary type; of an enumeration the least unsigned one that can tell its values apart.
+    pub ty: Type,
+    /// The least and greatest value of a subrange.
+    pub range: Option<(i128, i128)>,
+    /// The enumeration, if it is one.
+    pub enumeration: Option<Rc<Enumeration>>,
+    /// Its value at power-on if none is given, as a pattern.
+    pub default: u64,
+}
+
+/// An enumerated type.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Enumeration {
+    /// The name it was declared by; of one without a name, its values.
+    pub name: String,
+    /// The names of its values 0, 1, ….
+    pub values: Vec<String>,
+}
+
+impl Enumeration {
+    /// The number of a value's name.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.values.iter().position(|value| value.eq_ignore_ascii_case(name))
+    }
+}
+
+/// A value at power-on, given for a shape.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// What the type says.
+    Default,
+    /// The pattern of an elementary value.
+    Scalar(u64),
+    /// Values of the members or elements with these positions; the others have what their types say.
+    Parts(Vec<(usize, Value)>),
+}
+
+impl Scalar {
+    /// A scalar of an elementary type.
+    #[must_use]
+    pub fn new(ty: Type) -> Self {
+        Self { ty, range: None, enumeration: None, default: 0 }
+    }
+}
+
+impl Shape {
+    /// The scalar, if it is one.
+    #[must_use]
+    pub fn scalar(&self) -> Option<&Scalar> {
+        match self {
+            Self::Scalar(scalar) => Some(scalar),
+            _ => None,
+        }
+    }
+
+    /// Whether a variable of the other shape may stand for one of this: the same types everywhere.
+    #[must_use]
+    pub fn same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Scalar(a), Self::Scalar(b)) => (a.ty, &a.range, &a.enumeration) == (b.ty, &b.range, &b.enumeration),
+            (Self::Array { ranges, of }, Self::Array { ranges: others, of: other }) => {
+                ranges == others && of.same(other)
+            }
+            (Self::Structure(a), Self::Structure(b)) => Rc::ptr_eq(a, b),
+            (Self::Instance(a), Self::Instance(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// How many elements an array of these ranges has.
+#[must_use]
+pub fn elements(ranges: &[(i64, i64)]) -> usize {
+    ranges.iter().map(|&(lower, upper)| (upper - lower + 1) as usize).product()
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scalar(scalar) => scalar.fmt(f),
+            Self::Array { ranges, of } => {
+                let ranges: Vec<String> = ranges.iter().map(|(lower, upper)| format!("{lower}..{upper}")).collect();
+                write!(f, "ARRAY [{}] OF {of}", ranges.join(", "))
+            }
+            Self::Structure(structure) => f.write_str(&structure.name),
+            Self::Instance(_) => f.write_str("a function block"),
+        }
+    }
+}
+
+impl fmt::Display for Scalar {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.enumeration, self.range) {
+            (Some(enumeration), _) => f.write_str(&enumeration.name),
+            (None, Some((lower, upper))) => write!(f, "{} ({lower}..{upper})", self.ty),
+            (None, None) => self.ty.fmt(f),
+        }
+    }
+}
