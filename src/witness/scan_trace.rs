@@ -100,7 +100,7 @@ pub fn replay_scans(
             }
         }
         let mut seen = BTreeSet::new();
-        while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {
+        while !replay.is_at(end_place) && (replay.is_within_line() || seen.insert(replay.marking().clone())) {
             replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
         }
         let Some(end) = &scan.end else {
