@@ -4,14 +4,14 @@
 
 mod support;
 
-use petril::flat::{FlatProgram, Hazard, Instruction};
+use petril::flat::{FlatProgram, Function, Hazard, Instruction, Operand, Target};
 use petril::interpret::Machine;
-use petril::semantics::{Role, VarId};
+use petril::semantics::{Role, Type, VarId};
 use petril::translate::{PlaceRole, Plant, System, TransitionRole};
 use petril::witness::Replay;
 use proptest::prelude::*;
 use support::random_flat::{Choices, program};
-use support::token_game::Game;
+use support::token_game::{Game, flat, variable};
 
 /// A scan is not followed any longer.
 const STEPS: usize = 200;
@@ -169,4 +169,33 @@ fn random_programs_do_everything() {
         assert!(count > 20, "{word}: {count}");
     }
     assert!(ended > 200 && elements > 100, "{ended} {elements}");
+}
+
+/// A net that computes something else than the interpreter, or meets another hazard, is found out by the replay.
+#[test]
+fn the_replay_notices_what_differs() {
+    let usint = Type::named("USINT").unwrap();
+    let [x, y] = [0, 1].map(|id| Operand::Place(Target::Variable(VarId(id))));
+    let add = |function, ty| Instruction::Combine { function, ty, negated: false, operand: y };
+    let code = vec![
+        Instruction::Load { ty: usint, negated: false, operand: x },
+        add(Function::Add, usint),
+        Instruction::Store { ty: usint, negated: false, target: Target::Variable(VarId(2)) },
+    ];
+    let variables = [("x", Role::Input), ("y", Role::Input), ("z", Role::Output)];
+    let variables = variables.map(|(name, role)| variable(name, role, usint)).into();
+    let system = System::new(flat(variables, code), Plant::default());
+    let told = |instruction, x: u64, y: u64| {
+        let mut other = system.clone();
+        other.program.code[1].instruction = instruction;
+        let inputs = vec![(VarId(0), x), (VarId(1), y)];
+        replay(&other, &[inputs]).map_err(|error| error.to_string()).err().unwrap_or_default()
+    };
+    assert_eq!(told(add(Function::Add, usint), 255, 1), "");
+    assert!(told(add(Function::Sub, usint), 2, 1).contains("differ in the current result"));
+    assert!(told(add(Function::Mul, usint), 2, 2).is_empty(), "both are 4");
+    let byte = Type::named("BYTE").unwrap();
+    assert!(told(add(Function::Add, byte), 255, 1).contains("meets the hazards [], the net [overflow]"));
+    assert!(told(add(Function::Add, byte), 254, 1).is_empty());
+    assert!(told(add(Function::Sub, usint), 0, 1).contains("meets the hazards [overflow], the net []"));
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use petril::flat::{FlatProgram, Function, Instruction, Operand, Target};
 use petril::net::PlaceId;
 use petril::semantics::{Role, Type, VarId};
-use petril::translate::{Part, PlaceRole, Plant, System};
+use petril::translate::{Part, PlaceRole, Plant, System, TransitionRole};
 use proptest::prelude::*;
 use support::random_flat::{Choices, program};
 use support::token_game::{flat, variable};
@@ -34,11 +34,11 @@ fn invariants(system: &System) -> Vec<usize> {
 /// A place of control, and the instruction it belongs to.
 fn what(system: &System, role: PlaceRole) -> String {
     let line = match role {
-        PlaceRole::Line(line) | PlaceRole::Within(line, _) | PlaceRole::Hazard(line, _) => line,
-        _ => return format!("{role:?}"),
+        PlaceRole::Line(line) | PlaceRole::Within(line, _) | PlaceRole::Hazard(line, _) => Some(line),
+        _ => None,
     };
-    let code = system.program.code.get(line);
-    code.map_or(String::new(), |code| format!("{role:?} of {:?}", code.instruction))
+    let instruction = line.and_then(|line| system.program.code.get(line)).map(|code| code.instruction);
+    format!("{role:?} of {instruction:?}")
 }
 
 /// Every sum is 1 at the beginning, and no transition changes it or reads what it takes.
@@ -139,4 +139,29 @@ fn registers_are_there_if_they_are_needed() {
     assert_eq!(registers(Function::Mod, "UINT", x), 0);
     assert_eq!(registers(Function::Div, "UINT", x), 16);
     assert_eq!(registers(Function::Div, "INT", x), 16 + 16 + 1);
+}
+
+/// The sizes in `docs/semantics.md`: places within the line and transitions, for signed numbers of 8, 16 and 32 bits.
+#[test]
+fn subnets_have_the_sizes_that_are_documented() {
+    let sizes = |make: &dyn Fn(Type, Operand) -> Instruction| {
+        ["SINT", "INT", "DINT"].map(|name| {
+            let ty = Type::named(name).unwrap();
+            let x = Operand::Place(Target::Variable(VarId(0)));
+            let system = System::new(flat(vec![variable("x", Role::Memory, ty)], vec![make(ty, x)]), Plant::default());
+            let within = |role: &&PlaceRole| matches!(role, PlaceRole::Within(..) | PlaceRole::Hazard(..));
+            (system.places.iter().filter(within).count(), system.transitions_of(TransitionRole::Line(0)).count())
+        })
+    };
+    let combined = |function| sizes(&move |ty, operand| Instruction::Combine { function, ty, negated: false, operand });
+    assert_eq!(sizes(&|ty, operand| Instruction::Load { ty, negated: false, operand }), [(7, 32), (15, 64), (31, 128)]);
+    assert_eq!(combined(Function::And), [(7, 32), (15, 64), (31, 128)]);
+    assert_eq!(combined(Function::Add), [(15, 61), (31, 125), (63, 253)]);
+    assert_eq!(combined(Function::Sub), [(15, 61), (31, 125), (63, 253)]);
+    assert_eq!(combined(Function::Gt), [(9, 36), (17, 68), (33, 132)]);
+    assert_eq!(combined(Function::Mul), [(142, 403), (406, 1307), (1318, 4651)]);
+    assert_eq!(combined(Function::Div), [(190, 599), (570, 1959), (1906, 6983)]);
+    let (function, negated, operand) = (Function::Add, false, Operand::Constant(10));
+    let ten = sizes(&|ty, _| Instruction::Combine { function, ty, negated, operand });
+    assert_eq!(ten, [(7, 15), (15, 31), (31, 63)]);
 }

@@ -125,7 +125,12 @@ impl Division {
         }
         let width = self.result.len();
         let quotient = subnet.register(Register::Quotient, if self.modulo { 0 } else { self.ty.width });
-        let row = |row: usize| State::Compare { row, bit: width - 1 - row };
+        // What is left of the dividend is less than twice the divisor: of a divisor that is known, few bits are looked at.
+        let known = self.divisor.iter().all(|wire| wire.known().is_some());
+        let reach =
+            self.divisor.iter().rposition(|wire| known && wire.known() == Some(true)).map_or(width, |top| top + 1);
+        let highest = |row: usize| reach.min(width - 1 - row);
+        let row = |row: usize| State::Compare { row, bit: highest(row) };
         let below = |at: usize| if at == 0 { State::Done } else { row(at - 1) };
         subnet.walk(from, State::Leading(width - 1), |subnet, state| match *state {
             State::Leading(bit) => {
@@ -151,7 +156,7 @@ impl Division {
             }
             State::Subtract { row, bit, carry } => {
                 let after = |carry: bool| {
-                    if row + bit + 1 == width { below(row) } else { State::Subtract { row, bit: bit + 1, carry } }
+                    if bit == highest(row) { below(row) } else { State::Subtract { row, bit: bit + 1, carry } }
                 };
                 let wire = self.divisor[bit].clone().complement();
                 // The first step notes the bit of the quotient.

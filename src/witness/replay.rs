@@ -140,7 +140,9 @@ impl<'s> Replay<'s> {
         )))
     }
 
-    fn is_within_line(&self) -> bool {
+    /// Whether control is between two steps of one instruction.
+    #[must_use]
+    pub fn is_within_line(&self) -> bool {
         matches!(self.system.places[self.control.index()], PlaceRole::Within(..) | PlaceRole::Hazard(..))
     }
 

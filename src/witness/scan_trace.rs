@@ -120,7 +120,7 @@ pub fn replay_scans(
             }
         }
         let mut seen = BTreeSet::new();
-        while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {
+        while !replay.is_at(end_place) && (replay.is_within_line() || seen.insert(replay.marking().clone())) {
             replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
             if scan.end.is_none() && scan.hazard.is_some_and(|hazard| replay.hazards().contains(&hazard)) {
                 return Ok(());
