@@ -24,7 +24,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         return Err(Failure::Message(message.to_owned()));
     }
     let timing = arguments.meaning.timing;
-    let (Program { flat: program, source, scan_time }, plant) =
+    let (Program { flat: program, source }, plant) =
         input::parts(&arguments.program, &arguments.plant, timing, console)?;
     let mut asked = Asked::read(arguments, console)?;
     let domains = asked.domains(&program, &plant);
@@ -39,7 +39,6 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         fair: arguments.fair,
         budget: arguments.limits.budget(),
         tolerated: arguments.meaning.tolerated(),
-        scan_time,
     };
     let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
     watcher.finish();

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::exchange::{pnml, tina};
-use petril::flat::{DEFAULT_SCAN_TIME, FlatProgram, flatten_with};
+use petril::flat::{FlatProgram, flatten_with};
 use petril::net::Located;
 use petril::semantics;
 use petril::source::{NotText, Source, Span};
@@ -60,8 +60,6 @@ fn readable(bytes: &[u8]) -> Vec<u8> {
 pub struct Program {
     pub flat: FlatProgram,
     pub source: Source,
-    /// The time from one scan to the next, in milliseconds.
-    pub scan_time: u64,
 }
 
 /// Reads a program. Its diagnostics are printed, warnings too.
@@ -73,8 +71,7 @@ pub fn program(path: &Path, timing: Timing, console: &Console) -> Result<Program
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
     let program = program.ok_or(Failure::Reported)?;
-    let scan_time = timing.scan_time.or(program.interval).unwrap_or(DEFAULT_SCAN_TIME);
-    Ok(Program { flat: flatten_with(&program, Some(scan_time)), source, scan_time })
+    Ok(Program { flat: flatten_with(&program, timing.scan_time), source })
 }
 
 /// Reads a net, by the ending of its name.

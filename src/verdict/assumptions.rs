@@ -3,7 +3,7 @@
 use super::Options;
 use crate::flat::Hazard;
 use crate::logic::View;
-use crate::semantics::{Role, Type, VarId};
+use crate::semantics::{Role, VarId};
 use crate::translate::System;
 
 /// The assumptions about a system that is checked in this way.
@@ -51,8 +51,8 @@ pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
         });
     }
     assumptions.extend(arithmetic(system, options));
-    if program.variables.iter().any(|variable| variable.ty == Type::TIME) {
-        assumptions.push(format!("a scan begins every {} ms", options.scan_time));
+    if let Some(time) = program.scan_time {
+        assumptions.push(format!("a scan begins every {time} ms; during a scan the clock stands still"));
     }
     if options.fair {
         assumptions.push("the PLC always scans again".to_owned());

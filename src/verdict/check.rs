@@ -9,7 +9,7 @@ use super::remarks::remarks;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::{Answer, Exploration, Outcome, Report, hazards, scan_ends};
 use crate::explore::{Budget, Graph, MarkingSpace, Progress, ScanSpace, explore};
-use crate::flat::{DEFAULT_SCAN_TIME, Tolerated};
+use crate::flat::Tolerated;
 use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label, vacuous_premise};
 use crate::translate::{PlaceRole, System};
 
@@ -24,15 +24,13 @@ pub struct Options {
     pub budget: Budget,
     /// The hazards that are no errors. In the scan view nothing is known after the others.
     pub tolerated: Tolerated,
-    /// The time from one scan to the next, in milliseconds. The program's timers have been told; here it is an assumption.
-    pub scan_time: u64,
 }
 
 impl Default for Options {
-    /// The scan view, a scan every 20 ms, and no hazard tolerated.
+    /// The scan view, and no hazard tolerated.
     fn default() -> Self {
         let (budget, tolerated) = (Budget::default(), Tolerated::default());
-        Self { view: View::Scan, fair: false, budget, tolerated, scan_time: DEFAULT_SCAN_TIME }
+        Self { view: View::Scan, fair: false, budget, tolerated }
     }
 }
 
