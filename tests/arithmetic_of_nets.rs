@@ -63,7 +63,7 @@ fn expected(function: Function, ty: Type, a: u64, b: u64) -> (u64, Option<Hazard
     let truth = |truth: bool| (u64::from(truth), None);
     let distance = (b % u64::from(ty.width)) as u32;
     let (left, right) = ((u128::from(a) << distance) as u64 & mask, a >> distance);
-    let around = |by: u32| if by == ty.width { 0 } else { (a << by) & mask | a >> (ty.width - by) };
+    let around = |by: u32| if by.is_multiple_of(ty.width) { a } else { (a << by) & mask | a >> (ty.width - by) };
     match function {
         Function::And => (a & b, None),
         Function::Or => (a | b, None),
@@ -86,9 +86,7 @@ fn expected(function: Function, ty: Type, a: u64, b: u64) -> (u64, Option<Hazard
         Function::Shl | Function::Shr if b >= u64::from(ty.width) => (0, None),
         Function::Shl => (left, None),
         Function::Shr => (right, None),
-        Function::Rol if distance == 0 => (a, None),
         Function::Rol => (around(distance), None),
-        Function::Ror if distance == 0 => (a, None),
         Function::Ror => (around(ty.width - distance), None),
     }
 }

@@ -20,16 +20,6 @@ fn programs() -> u32 {
     std::env::var("PETRIL_PROGRAMS").ok().and_then(|count| count.parse().ok()).unwrap_or(2000)
 }
 
-/// How many bits of the current result have a meaning after an instruction.
-fn width_after(instruction: Instruction, before: u32) -> u32 {
-    match instruction {
-        Instruction::Load { ty, .. } | Instruction::Complement(ty) | Instruction::Convert { to: ty, .. } => ty.width,
-        Instruction::Combine { function, .. } if function.compares() => 1,
-        Instruction::Combine { ty, .. } => ty.width,
-        _ => before,
-    }
-}
-
 /// The values of the inputs in a scan.
 type Inputs = Vec<(VarId, u64)>;
 
@@ -80,7 +70,7 @@ fn agree(game: &mut Game, program: &FlatProgram, scans: &[Inputs]) -> Result<Met
             for variable in variables() {
                 prop_assert_eq!(game.value(variable), Some(machine.value(variable)), "{} in {}", text, variable.0);
             }
-            width = width_after(instruction, width);
+            width = instruction.gives().map_or(width, |ty| ty.width);
             let result = machine.result() & (u64::MAX >> (64 - width));
             prop_assert_eq!(game.result(width), Some(result), "{} in the current result", text);
             prop_assert!(game.registers_are_clear(), "{}", text);

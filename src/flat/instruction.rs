@@ -167,12 +167,14 @@ impl Instruction {
         }
     }
 
-    /// The type CR has afterwards; `None` if that is its type before.
+    /// The type it gives CR; `None` if CR stays as it is.
     #[must_use]
-    pub fn result(&self) -> Option<Type> {
+    pub fn gives(&self) -> Option<Type> {
         match *self {
             Self::Combine { function, .. } if function.compares() => Some(Type::BOOL),
-            Self::Load { ty, .. } | Self::Combine { ty, .. } | Self::Convert { to: ty, .. } => Some(ty),
+            Self::Load { ty, .. } | Self::Complement(ty) | Self::Combine { ty, .. } | Self::Convert { to: ty, .. } => {
+                Some(ty)
+            }
             _ => None,
         }
     }

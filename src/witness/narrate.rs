@@ -81,7 +81,7 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
         let before = machine.clone();
         let hazard = machine.step();
         let code = &program.code[line];
-        result = code.instruction.result().unwrap_or(result);
+        result = code.instruction.gives().unwrap_or(result);
         let change = (0..program.variables.len()).map(VarId).find(|&id| before.value(id) != machine.value(id));
         let change = change.map(|id| {
             let variable = program.variable(id);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::flat::{Hazard, Instruction};
+use crate::flat::Hazard;
 use crate::interpret::Machine;
 use crate::logic::{Bound, Valuation};
 use crate::net::{Marking, PlaceId, TransitionId};
@@ -117,14 +117,8 @@ impl<'s> Replay<'s> {
 
     /// The interpreter executes the line that the net has come to the end of. Both must have met the same hazard.
     fn execute(&mut self, line: usize) -> Result<(), Disagreement> {
-        self.width = match self.system.program.code[line].instruction {
-            Instruction::Load { ty, .. } | Instruction::Complement(ty) | Instruction::Convert { to: ty, .. } => {
-                ty.width
-            }
-            Instruction::Combine { function, .. } if function.compares() => 1,
-            Instruction::Combine { ty, .. } => ty.width,
-            _ => self.width,
-        };
+        let given = self.system.program.code[line].instruction.gives();
+        self.width = given.map_or(self.width, |ty| ty.width);
         let met: Vec<Hazard> = self.machine.step().into_iter().collect();
         let passed = std::mem::take(&mut self.passed);
         self.hazards.extend(met.iter().map(|&hazard| (line, hazard)));

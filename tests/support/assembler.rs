@@ -86,7 +86,7 @@ impl Assembler<'_> {
                 }
             }
         };
-        self.ty = instruction.result().unwrap_or(self.ty);
+        self.ty = instruction.gives().unwrap_or(self.ty);
         instruction
     }
 }
