@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use petril::diagnostic::{Code, Diagnostic};
-use petril::flat::FlatProgram;
+use petril::flat::{FlatProgram, Restriction};
 use petril::logic;
 use petril::semantics::{Role, Type, VarId};
 use petril::source::{Source, Span};
@@ -64,14 +64,19 @@ pub fn read(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, u6
         for (input, cell) in columns.iter().zip(&record) {
             let Some(input) = *input else { continue };
             let ty = program.variable(input).ty;
-            match value(ty, cell) {
+            let (least, greatest) = program.range(input);
+            let allowed = |pattern: &u64| (least..=greatest).contains(&ty.number(*pattern));
+            let named = program.enumerated(input, cell).map(|number| ty.pattern(number));
+            match named.or_else(|| value(ty, cell).filter(allowed)) {
                 Some(value) => row.push((input, value)),
                 None => {
                     let message = format!("`{cell}` is no value of type `{ty}`");
                     let help = if ty.is_bool() {
                         "write 0 or 1".to_owned()
+                    } else if let Some(Restriction::Enumeration(names)) = program.restrictions.get(&input) {
+                        format!("write one of {}", names.join(", "))
                     } else {
-                        format!("write a number from {} to {}", ty.least(), ty.greatest())
+                        format!("write a number from {least} to {greatest}")
                     };
                     errors.push(Diagnostic::new(Code::InputTable, line(record.position()), message).help(help));
                 }

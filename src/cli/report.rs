@@ -1,6 +1,5 @@
 //! The report of a check as text for people.
 
-use petril::flat::value_text;
 use petril::logic::View;
 use petril::source::Source;
 use petril::translate::{Part, System};
@@ -55,9 +54,9 @@ impl Text<'_> {
         let mut last = 0;
         let text = |remark: &Remark| match *remark {
             Remark::NeverChanges(output, value) => {
-                let output = program.variable(output);
-                let value = value_text(output.ty, value);
-                Some(format!("note: `{}` is {value} at the end of every scan\n", output.name))
+                let value = program.value_text(output, value);
+                let name = &program.variable(output).name;
+                Some(format!("note: `{name}` is {value} at the end of every scan\n"))
             }
             Remark::NeverExecuted(line) => {
                 let from = self.source.line_of(program.code[line].span.start);

@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 
-use petril::flat::{FlatProgram, Hazard, value_text};
+use petril::flat::{FlatProgram, Hazard};
 use petril::interpret::{Fault, Machine};
-use petril::semantics::Type;
+use petril::semantics::VarId;
 use petril::source::Source;
 use petril::witness::{Column, Table};
 
@@ -80,10 +80,10 @@ fn explain((line, hazard): (usize, Hazard), scan: usize, program: &FlatProgram, 
 fn rows(
     program: &FlatProgram,
     states: &[Vec<u64>],
-    text: impl Fn(Type, u64) -> String,
+    text: impl Fn(VarId, u64) -> String,
 ) -> impl Iterator<Item = Vec<String>> {
     states.iter().enumerate().map(move |(scan, state)| {
-        let values = program.declared().zip(state).map(|(id, &value)| text(program.variable(id).ty, value));
+        let values = program.declared().zip(state).map(|(id, &value)| text(id, value));
         std::iter::once((scan + 1).to_string()).chain(values).collect()
     })
 }
@@ -91,7 +91,7 @@ fn rows(
 fn csv(program: &FlatProgram, states: &[Vec<u64>]) -> String {
     let names = program.declared().map(|id| program.variable(id).name.clone());
     let head: Vec<String> = std::iter::once("cycle".to_owned()).chain(names).collect();
-    let rows = rows(program, states, |ty, value| ty.number(value).to_string());
+    let rows = rows(program, states, |id, value| program.variable(id).ty.number(value).to_string());
     // The name of an element of an array with several dimensions has a comma.
     let cell = |cell: String| if cell.contains(',') { format!("\"{cell}\"") } else { cell };
     let line = |row: Vec<String>| row.into_iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
@@ -101,6 +101,6 @@ fn csv(program: &FlatProgram, states: &[Vec<u64>]) -> String {
 fn table(program: &FlatProgram, states: &[Vec<u64>]) -> Table {
     let names = program.declared().map(|id| Column::right(&program.variable(id).name)).collect();
     let mut table = Table::new(vec![vec![Column::right("scan")], names]);
-    rows(program, states, value_text).for_each(|row| table.row(row));
+    rows(program, states, |id, value| program.value_text(id, value)).for_each(|row| table.row(row));
     table
 }

@@ -9,6 +9,7 @@ mod instruction;
 mod lower;
 mod narrow;
 mod print;
+mod restriction;
 #[cfg(test)]
 mod tests;
 mod tolerated;
@@ -17,10 +18,13 @@ mod value;
 pub use compared::Cuts;
 pub use lower::{DEFAULT_SCAN_TIME, flatten, flatten_with};
 pub use print::literal;
+pub use restriction::Restriction;
 pub use tolerated::Tolerated;
 pub use value::value_text;
 
 pub use instruction::{Condition, Element, Function, Hazard, Instruction, Operand, Target};
+
+use std::collections::BTreeMap;
 
 use crate::semantics::{Role, Type, VarId};
 use crate::source::Span;
@@ -36,6 +40,8 @@ pub struct FlatProgram {
     pub variables: Vec<Variable>,
     /// The instructions in their order.
     pub code: Vec<Line>,
+    /// Variables whose declarations do not allow every value of their types.
+    pub restrictions: BTreeMap<VarId, Restriction>,
     /// The time from one scan to the next in milliseconds, if a timer depends on it.
     pub scan_time: Option<u64>,
 }

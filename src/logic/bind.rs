@@ -68,7 +68,11 @@ impl Binder<'_> {
                 Bound::Iff(f, g)
             }
             Expression::Compare(comparison, left, right) => {
-                let (left, right) = (self.number(left), self.number(right));
+                let (left, right) = match (self.enumerated(left, right), self.enumerated(right, left)) {
+                    (Some(left), _) => (left, self.number(right)),
+                    (_, Some(right)) => (self.number(left), right),
+                    _ => (self.number(left), self.number(right)),
+                };
                 if left.magnitude().is_none() || right.magnitude().is_none() {
                     let message = "the numbers in this comparison can become too large";
                     return self.error(Diagnostic::new(Code::RequirementTypes, formula.span, message));
@@ -133,6 +137,16 @@ impl Binder<'_> {
                 Term::Truth(Box::new(truth))
             }
         }
+    }
+
+    /// A name that is no variable, but a value of the enumerated variable it is compared with.
+    fn enumerated(&self, value: &Formula, variable: &Formula) -> Option<Term> {
+        let (Expression::Name(value), Expression::Name(variable)) = (&value.expression, &variable.expression) else {
+            return None;
+        };
+        let program = &self.system.program;
+        let variable = program.find(variable).filter(|_| program.find(value).is_none())?;
+        program.enumerated(variable, value).map(Term::Number)
     }
 
     /// A variable that must be a truth value.

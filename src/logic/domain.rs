@@ -48,9 +48,10 @@ pub fn bind_domain(
             let message = format!("there is no number from {from} to {to}");
             return Err(Diagnostic::new(Code::DomainUnfit, place, message).help("write the smaller one first"));
         }
-        if let Some(number) = [from, to].into_iter().find(|&number| !ty.holds(number)) {
+        let (least, greatest) = program.range(input);
+        if let Some(number) = [from, to].into_iter().find(|number| !(least..=greatest).contains(number)) {
             let message = format!("{number} is no value of `{name}`, which is of type `{ty}`");
-            let help = format!("`{ty}` goes from {} to {}", ty.least(), ty.greatest());
+            let help = format!("`{name}` goes from {least} to {greatest}");
             return Err(Diagnostic::new(Code::DomainUnfit, place, message).help(help));
         }
     }

@@ -47,7 +47,8 @@ impl System {
 
     /// Composes a program and its plant; free inputs have the values of their domains.
     #[must_use]
-    pub fn with_domains(program: FlatProgram, plant: Plant, domains: Domains) -> Self {
+    pub fn with_domains(program: FlatProgram, plant: Plant, mut domains: Domains) -> Self {
+        declared_domains(&program, &plant, &mut domains);
         let mut weaver = Weaver::new(&program.name);
         let lines = user_places(&mut weaver, &program);
         for (line, code) in program.code.iter().enumerate() {
@@ -223,4 +224,14 @@ fn sources(component: &Component, places: &[PlaceId], input: VarId) -> Vec<Sourc
             Some(Source { place: id, name: place.name.clone(), pattern })
         })
         .collect()
+}
+
+/// Free inputs without a domain have the values that their declarations allow.
+fn declared_domains(program: &FlatProgram, plant: &Plant, domains: &mut Domains) {
+    for (&input, restriction) in &program.restrictions {
+        let variable = program.variable(input);
+        if variable.role == Role::Input && plant.driver(input).is_none() && !domains.contains_key(&input) {
+            domains.extend(Domain::new(variable.ty, vec![restriction.range()]).map(|domain| (input, domain)));
+        }
+    }
 }

@@ -36,7 +36,7 @@ pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
         for &id in groups.iter().flatten() {
             let unknown = scan.end.is_none() && program.variable(id).role != Role::Input;
             let star = if memory[id.0] == before[id.0] { "" } else { "*" };
-            let value = value_text(program.variable(id).ty, memory[id.0]);
+            let value = program.value_text(id, memory[id.0]);
             row.push(if unknown { "?".to_owned() } else { format!("{star}{value}") });
         }
         if has_moves {
@@ -83,10 +83,8 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
         let code = &program.code[line];
         result = code.instruction.gives().unwrap_or(result);
         let change = (0..program.variables.len()).map(VarId).find(|&id| before.value(id) != machine.value(id));
-        let change = change.map(|id| {
-            let variable = program.variable(id);
-            format!("{} = {}", variable.name, value_text(variable.ty, machine.value(id)))
-        });
+        let change =
+            change.map(|id| format!("{} = {}", program.variable(id).name, program.value_text(id, machine.value(id))));
         let changes: Vec<String> = change.into_iter().chain(hazard.map(|hazard| hazard.to_string())).collect();
         let from = source.line_of(code.span.start);
         table.row(vec![

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Lowering;
 use super::places::Address;
-use crate::flat::Variable;
+use crate::flat::{Restriction, Variable};
 use crate::semantics::{Area, PouId, Program, Role, Scalar, Section, Shape, Value, VarId, elements};
 use crate::source::Span;
 
@@ -94,6 +94,8 @@ impl Lowering<'_> {
             Shape::Scalar(scalar) => {
                 let variable = variable(leaf, scalar, initial);
                 self.buffers.take(&variable.name);
+                let id = VarId(self.variables.len());
+                self.restrictions.extend(Restriction::of(scalar).map(|restriction| (id, restriction)));
                 self.variables.push(variable);
             }
             Shape::Array { ranges, of } => {

@@ -8,8 +8,10 @@ mod standard;
 mod statements;
 mod timers;
 
+use std::collections::BTreeMap;
+
 use super::narrow::{Timer, narrow};
-use super::{FlatProgram, Instruction, Line, Operand, Target, Variable};
+use super::{FlatProgram, Instruction, Line, Operand, Restriction, Target, Variable};
 use crate::semantics::{Condition, Pou, PouId, PouKind, Program, Role, Section, Type, VarId};
 use crate::source::Span;
 use buffers::Buffers;
@@ -40,8 +42,9 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     lowering.resolve();
     let scan_time = has_timers.then_some(lowering.scan_time);
     let name = program.pous[program.entry.0].name.clone();
-    let mut flat = FlatProgram { name, variables: lowering.variables, code: lowering.code, scan_time };
-    narrow(&mut flat, &lowering.timers);
+    let Lowering { variables, code, restrictions, timers, .. } = lowering;
+    let mut flat = FlatProgram { name, variables, code, restrictions, scan_time };
+    narrow(&mut flat, &timers);
     flat
 }
 
@@ -65,6 +68,7 @@ struct Lowering<'p> {
     layouts: Layouts<'p>,
     scan_time: u64,
     variables: Vec<Variable>,
+    restrictions: BTreeMap<VarId, Restriction>,
     code: Vec<Line>,
     /// The line of each label. Until the end, a jump's target is a label.
     labels: Vec<usize>,
@@ -80,6 +84,7 @@ impl<'p> Lowering<'p> {
             layouts: Layouts::new(program),
             scan_time,
             variables: Vec::new(),
+            restrictions: BTreeMap::new(),
             code: Vec::new(),
             labels: Vec::new(),
             buffers: Buffers::default(),
