@@ -135,7 +135,8 @@ impl ListBuilder {
     /// other ends are not reported.
     fn bad_line(&mut self, pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
         let explained = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
-        let help = "an instruction is one operator with one operand, on a line of its own";
+        let at = explained.span().start - pair.as_span().start();
+        let help = advice(pair.as_str(), at);
         diagnostics.push(if explained.help.is_empty() { explained.help(help) } else { explained });
         self.push(None, Some(Operation::Broken), span(pair));
         let mut opened = Vec::new();
@@ -171,6 +172,18 @@ impl ListBuilder {
             self.close(end, diagnostics);
         }
         self.current
+    }
+}
+
+/// What to do about a line that cannot be read from this byte on.
+fn advice(line: &str, at: usize) -> &'static str {
+    let (before, behind) = line.split_at(at);
+    if behind.starts_with('(') && before.contains('(') {
+        "a parameter is a variable or a literal: compute the value before, and store it in a variable"
+    } else if behind.starts_with(['<', '>', '=', '+', '-', '*', '/']) {
+        "Instruction List has words instead of signs: `GT`, `LT`, `EQ`, `ADD`, `SUB`, …, each on a line of its own"
+    } else {
+        "an instruction is one operator with one operand, on a line of its own"
     }
 }
 
