@@ -1,4 +1,4 @@
-//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest`.
+//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest` (or `sizes`).
 //!
 //! Times are the shortest of several runs; runs that are compared take turns.
 
@@ -12,7 +12,7 @@ use petril::semantics;
 use petril::source::Source;
 use petril::syntax;
 use petril::translate::{Plant, System};
-use programs::{filters, mixed, system};
+use programs::{filters, mixed, numbers, system};
 use rayon::ThreadPoolBuilder;
 
 /// Runs of each measurement.
@@ -24,6 +24,7 @@ fn main() {
     match (asked("--bench"), asked("largest")) {
         (false, _) => {}
         (true, true) => scan_view(&[(3, 7)], 1),
+        (true, false) if asked("sizes") => program_sizes(),
         (true, false) => {
             program_sizes();
             scan_view(&[(1, 9), (2, 5), (3, 4), (3, 5), (2, 9), (3, 6)], RUNS);
@@ -62,22 +63,30 @@ fn shortest<T, const N: usize>(runs: usize, mut tasks: [&mut dyn FnMut() -> T; N
 /// Programs from 10 to 10,000 instructions, read and translated.
 fn program_sizes() {
     let heads = ["instructions", "lines", "places", "transitions", "read, µs", "translate, µs", "ns per instruction"];
-    let rows = [10, 30, 100, 300, 1000, 3000, 10_000].into_iter().filter_map(|instructions| {
-        let source = Source::new("mixed", mixed(instructions));
-        let read = || {
-            let (unit, errors) = syntax::parse(&source);
-            semantics::check(&unit, errors.is_empty()).0
-        };
-        let program = read()?;
-        let translate = || System::new(flatten(&program), Plant::default());
-        let [(reading, ()), (translating, ())] = shortest(5 * RUNS, [&mut || drop(read()), &mut || drop(translate())]);
-        let System { program, net, .. } = translate();
-        let each = (reading + translating).as_nanos() / instructions as u128;
-        let counts = [instructions, program.end(), net.places().len(), net.transitions().len()];
-        let times = [reading.as_micros(), translating.as_micros(), each];
-        Some(counts.iter().map(usize::to_string).chain(times.iter().map(u128::to_string)).collect())
-    });
+    let rows = [10, 30, 100, 300, 1000, 3000, 10_000]
+        .into_iter()
+        .map(|instructions| program_size(instructions.to_string(), instructions, &mixed(instructions)));
     table(&heads, rows);
+    let heads = ["type", "lines", "places", "transitions", "read, µs", "translate, µs", "ns per instruction"];
+    let sizes = ["SINT", "INT", "DINT", "LINT"].into_iter().flat_map(|ty| [100, 1000, 10_000].map(|size| (ty, size)));
+    table(&heads, sizes.map(|(ty, size)| program_size(ty.to_owned(), size, &numbers(ty, size))));
+}
+
+fn program_size(name: String, instructions: usize, text: &str) -> Vec<String> {
+    let source = Source::new("generated", text);
+    let read = || {
+        let (unit, errors) = syntax::parse(&source);
+        semantics::check(&unit, errors.is_empty()).0
+    };
+    let Some(program) = read() else { unreachable!("the generator writes programs without errors") };
+    let translate = || System::new(flatten(&program), Plant::default());
+    let [(reading, ()), (translating, ())] = shortest(RUNS, [&mut || drop(read()), &mut || drop(translate())]);
+    let System { program, net, .. } = translate();
+    let each = (reading + translating).as_nanos() / instructions as u128;
+    let counts = [program.end(), net.places().len(), net.transitions().len()];
+    let times = [reading.as_micros(), translating.as_micros(), each];
+    let numbers = counts.iter().map(usize::to_string).chain(times.iter().map(u128::to_string));
+    std::iter::once(name).chain(numbers).collect()
 }
 
 /// Everything reachable in a space, on so many threads.

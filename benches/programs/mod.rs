@@ -68,6 +68,16 @@ pub fn mixed(instructions: usize) -> String {
     format!("PROGRAM mixed\n{blocks}{}\nEND_PROGRAM\n", body.join("\n"))
 }
 
+/// A program of this many instructions on numbers of a type: sums and differences, compared with one another.
+pub fn numbers(ty: &str, instructions: usize) -> String {
+    let rungs = ["LD    a", "ADD   b", "ST    m", "SUB   c", "GT    a", "ST    q"];
+    let body: Vec<String> = rungs.iter().cycle().take(instructions).map(|rung| format!("    {rung}")).collect();
+    format!(
+        "PROGRAM numbers\nVAR_INPUT a, b, c : {ty}; END_VAR\nVAR m : {ty}; END_VAR\nVAR_OUTPUT q : BOOL; END_VAR\n{}\nEND_PROGRAM\n",
+        body.join("\n")
+    )
+}
+
 /// A program that filters contacts that bounce: each input is shifted through a history of some scans; a filtered value is
 /// set where the whole history is TRUE, and reset where it is FALSE. Inputs are independent, and any history can be, so
 /// that it has (2 · (2^scans − 1))^inputs states at the end of a scan, and 2^inputs steps from each.
