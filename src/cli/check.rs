@@ -20,7 +20,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let (system, source) = input::system(&arguments.program, &arguments.plant, console)?;
+    let (system, source) = input::system(&arguments.program, arguments.pou.as_deref(), &arguments.plant, console)?;
     let requirements = input::requirements(&arguments.require, &arguments.requirement, &system, view, console)?;
     let watcher = Watcher::new(&arguments.limits)?;
     let options = Options { view, fair: arguments.fair, budget: arguments.limits.budget() };

@@ -62,11 +62,11 @@ pub struct Program {
     pub source: Source,
 }
 
-/// Reads a program. Its diagnostics are printed, warnings too.
-pub fn program(path: &Path, console: &Console) -> Result<Program, Failure> {
+/// Reads a program, or the unit of this name. Its diagnostics are printed, warnings too.
+pub fn program(path: &Path, pou: Option<&str>, console: &Console) -> Result<Program, Failure> {
     let source = source(path, MAX_TEXT, console)?;
     let (unit, mut diagnostics) = syntax::parse(&source);
-    let (program, more) = semantics::check(&unit, !any_error(&diagnostics));
+    let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), pou);
     diagnostics.extend(more);
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
@@ -95,8 +95,13 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
 }
 
 /// A program in its plants.
-pub fn system<P: AsRef<Path>>(path: &Path, plants: &[P], console: &Console) -> Result<(System, Source), Failure> {
-    let program = program(path, console);
+pub fn system<P: AsRef<Path>>(
+    path: &Path,
+    pou: Option<&str>,
+    plants: &[P],
+    console: &Console,
+) -> Result<(System, Source), Failure> {
+    let program = program(path, pou, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
     let Program { flat, source } = program?;

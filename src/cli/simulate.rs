@@ -21,7 +21,7 @@ const DEFAULT_SCANS: usize = 10;
 const MAX_INPUTS: u64 = 1 << 30;
 
 pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
-    let program = input::program(&arguments.program, console)?.flat;
+    let program = input::program(&arguments.program, arguments.pou.as_deref(), console)?.flat;
     let rows = match &arguments.inputs {
         None => Vec::new(),
         Some(path) => {
