@@ -196,7 +196,7 @@ Examples:
   petril draw press.il --line 3 -o line3.svg")]
 pub struct Draw {
     /// A program; with --line, the subnet of one of its lines is drawn.
-    #[arg(value_name = "PROGRAM.il", required_unless_present = "instruction")]
+    #[arg(value_name = "PROGRAM", required_unless_present = "instruction")]
     pub program: Option<PathBuf>,
     /// The line of the program's flat code to draw, as `petril flat` numbers it.
     #[arg(long, value_name = "N", requires = "program")]

@@ -64,7 +64,9 @@ fn value(pair: Pair<'_, Rule>) -> Piece {
         if part.as_rule() == Rule::left_over {
             let text = part.as_str();
             let start = part.as_span().start() + text.len() - text.trim_start().len();
-            piece.diagnostics.push(expected::explain(Rule::lone_initial, text.trim(), start));
+            let explained = expected::explain(Rule::lone_initial, text.trim(), start);
+            let help = "an initial value is a literal like `5` or `TRUE`, the name of a constant, or a list of such";
+            piece.diagnostics.push(if explained.help.is_empty() { explained.help(help) } else { explained });
         } else {
             piece.initial = declarations::initial(part);
         }

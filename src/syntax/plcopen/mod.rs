@@ -35,6 +35,12 @@ pub fn is_xml(source: &Source) -> bool {
 
 /// Reads a project. What cannot be read is reported and left out of the tree.
 pub fn read(source: &Source) -> (Unit, Vec<Diagnostic>) {
+    if !source.text().trim_start().starts_with('<') {
+        let diagnostic = Diagnostic::new(Code::XmlSyntax, Span::default(), "this is no XML");
+        let help =
+            "a file whose name ends with .xml is read as a project of PLCopen; a program's text has the ending .il";
+        return (Unit::default(), vec![diagnostic.help(help)]);
+    }
     let document = match xml::document(source, Code::XmlSyntax, "PLCopen XML") {
         Ok(document) => document,
         Err(diagnostic) => return (Unit::default(), vec![diagnostic]),
