@@ -98,6 +98,20 @@ fn a_body_is_the_same_however_it_is_written() {
 }
 
 #[test]
+fn a_chosen_unit_is_checked_without_the_rest() {
+    let others = "<dataType name='text'><baseType><string/></baseType></dataType>\
+        <globalVars><variable name='x'><type><derived name='text'/></type></variable></globalVars>\
+        <pou name='r' pouType='program'><interface/><body><LD/></body></pou>";
+    let text = project(AB, "<IL>LD a\nST q</IL>").replace("<types>", &format!("<types>{others}"));
+    assert!(read(&text, None).0.is_none());
+    let (program, diagnostics) = read(&text, Some("p"));
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    assert_eq!(program.unwrap().code.len(), 2);
+    let (program, diagnostics) = read(&text, Some("r"));
+    assert!(program.is_none() && diagnostics[0].code == Code::OtherLanguage, "{diagnostics:?}");
+}
+
+#[test]
 fn an_interval_is_read_in_the_ways_of_the_tools() {
     for (interval, scan_time) in [
         ("T#20ms", Some(20)),

@@ -11,6 +11,7 @@ mod function;
 mod inference;
 mod interval;
 mod library;
+mod needed;
 mod program;
 mod project;
 mod shape;
@@ -92,12 +93,22 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
     check_unit(unit, clean, None)
 }
 
-/// As [`check`], but for the program, function block or function of this name, where one is given.
+/// As [`check`], but for the program, function block or function of this name, where one is given. What that does not need
+/// is not looked at.
 #[must_use]
 pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Program>, Vec<Diagnostic>) {
+    let needed;
+    let unit = match name {
+        Some(name) if unit.pous.iter().all(|pou| !pou.name.is(name)) => return (None, vec![no_unit(unit, name)]),
+        Some(name) => {
+            needed = needed::by(unit, name);
+            &needed
+        }
+        None => unit,
+    };
     let (project, mut diagnostics, mut of_units) = Project::of(unit);
     let entry = match name {
-        Some(name) => chosen(&project, name, &mut diagnostics),
+        Some(name) => project.find(name),
         None => entry(&project, &mut diagnostics),
     };
     let Some(entry) = entry else { return (None, diagnostics) };
@@ -132,18 +143,12 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     (Some(Program { pous, entry, globals, interval }), diagnostics)
 }
 
-/// The unit of the file that has this name.
-fn chosen(project: &Project<'_>, name: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<PouId> {
-    let found = project.unit.pous.iter().position(|pou| pou.name.is(name));
-    if found.is_none() {
-        let names = project.unit.pous.iter().map(|pou| pou.name.text.as_str());
-        let first = project.unit.pous.first().map_or(Span::default(), |pou| pou.name.span);
-        let message = format!("there is no program, function block or function `{name}` in this file");
-        diagnostics.push(
-            Diagnostic::new(Code::NameNotDeclared, first, message).here("the first one is here").suggest(name, names),
-        );
-    }
-    found.map(PouId)
+/// No unit of the file has the name that was asked for.
+fn no_unit(unit: &Unit, name: &str) -> Diagnostic {
+    let first = unit.pous.first().map_or(Span::default(), |pou| pou.name.span);
+    let names = unit.pous.iter().map(|pou| pou.name.text.as_str());
+    let message = format!("there is no program, function block or function `{name}` in this file");
+    Diagnostic::new(Code::NameNotDeclared, first, message).here("the first one is here").suggest(name, names)
 }
 
 /// The one PROGRAM of the file; where there is none, the last function block or function that no other calls.

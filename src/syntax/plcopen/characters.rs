@@ -61,8 +61,8 @@ fn markup(xml: &str) -> (usize, Markup) {
     if xml.starts_with("<?") {
         return (until("?>"), Markup::Nothing);
     }
-    if xml.starts_with('<') {
-        let name = xml[1..].trim_start_matches('/').split([' ', '\t', '\r', '\n', '/', '>']).next().unwrap_or_default();
+    if let Some(inner) = xml.strip_prefix('<') {
+        let name = inner.trim_start_matches('/').split([' ', '\t', '\r', '\n', '/', '>']).next().unwrap_or_default();
         let name = name.rsplit(':').next().unwrap_or_default();
         return (tag_end(xml), if LINES.contains(&name) { Markup::Line } else { Markup::Nothing });
     }
