@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::syntax::ast::{Unit, VarBlock, VarKind, key};
+use crate::syntax::ast::{Name, Unit, VarBlock, VarKind, key};
 
 /// The file without the units, types and global variables that the unit of this name cannot reach. Whatever is named
 /// anywhere in something that is needed counts as needed; so do variables at addresses, which can be used without a name.
@@ -14,7 +14,7 @@ pub fn by(unit: &Unit, name: &str) -> Unit {
     open.extend(unit.pous.iter().map(|pou| (vec![pou.name.key()], false, pou.to_string())));
     open.extend(unit.types.iter().map(|declared| (vec![declared.name.key()], false, declared.to_string())));
     open.extend(globals.map(|declaration| {
-        let names = declaration.names.iter().map(|name| name.key()).collect();
+        let names = declaration.names.iter().map(Name::key).collect();
         (names, declaration.location.is_some(), declaration.to_string())
     }));
     loop {
