@@ -26,7 +26,7 @@
 //!     let view = logic::View::Scan;
 //!     let requirement = logic::parse_formula("r1", &Source::new("formula", formula)).expect("a formula");
 //!     let bound = logic::bind(&requirement.formula, &system, view).expect("names the program has");
-//!     let options = verdict::Options { view, fair: false, budget: Default::default() };
+//!     let options = verdict::Options { view, ..Default::default() };
 //!     verdict::check(&system, &[(requirement, bound)], options, &mut |_| None)
 //! };
 //! assert_eq!(check("AG (Stop -> !Motor)").verdict(), verdict::Verdict::Holds);

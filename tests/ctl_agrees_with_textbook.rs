@@ -77,8 +77,8 @@ impl StateSpace for Given {
 struct Marks(u8);
 
 impl petril::logic::Valuation for Marks {
-    fn variable(&self, variable: VarId) -> bool {
-        self.0 >> variable.0 & 1 == 1
+    fn value(&self, variable: VarId) -> u64 {
+        u64::from(self.0 >> variable.0 & 1)
     }
     fn is_marked(&self, _: petril::net::PlaceId) -> bool {
         unreachable!()

@@ -8,11 +8,14 @@ use std::process::Command;
 
 use petril::draw::Positions;
 use petril::exchange::{Notes, pnml, tina};
+use petril::flat::{Function, Instruction, Operand, Target};
 use petril::net::{Arcs, Builder, Net};
+use petril::semantics::{Role, Type, VarId};
 use petril::source::Source;
-use petril::translate::Part;
+use petril::translate::{Part, Plant, System};
 use proptest::prelude::*;
 use support::systems::{CYLINDER, EVERY_INSTRUCTION, HANDS, TWO_HAND_SWITCH, system};
+use support::token_game::{flat, variable};
 
 /// Any characters a format could stumble over.
 const AWKWARD: &str = "[a-c'_0-9 {}\\\\#<>&\"äβ→😀:*?!()\\[\\]\n\r\t]{0,6}";
@@ -193,4 +196,26 @@ fn contest_models_are_read_or_refused_for_their_tokens() {
     }
     assert_eq!(refused, ["FMS-PT-00002", "HouseConstruction-PT-00002", "Kanban-PT-00005", "SwimmingPool-PT-01"]);
     assert!(counted >= 10, "{counted}");
+}
+
+/// What is said of the nodes that only wide data has.
+#[test]
+fn nodes_of_wide_data_have_notes() {
+    let sint = Type::named("SINT").unwrap();
+    let operand = Operand::Place(Target::Variable(VarId(0)));
+    let code = vec![Instruction::Combine { function: Function::Mul, ty: sint, negated: false, operand }];
+    let system = System::new(flat(vec![variable("x", Role::Input, sint)], code), Plant::default());
+    let notes = Notes::of(&system, &Source::new("x.il", "MUL x"));
+    let words =
+        |note: &[(&str, String)]| note.iter().map(|(word, value)| format!("{word}={value}")).collect::<Vec<_>>();
+    let place = |name: &str| words(&notes.places[system.net.find_place(name).unwrap().index()]).join(" ");
+    assert_eq!(place("x.3=1"), "part=user role=variable variable=x bit=3 value=1");
+    assert_eq!(place("CR.0=0"), "part=user role=result bit=0 value=0");
+    assert_eq!(place("operand'.8=0"), "part=user role=register register=operand bit=8 value=0");
+    assert_eq!(place("mark'=1"), "part=user role=register register=mark bit=0 value=1");
+    assert_eq!(place("line_1.1"), "part=user role=within-line line=1 source-line=1");
+    assert_eq!(place("line_1.overflow"), "part=user role=hazard hazard=overflow line=1 source-line=1");
+    assert_eq!(place("copy_x.7"), "part=system role=copying variable=x");
+    let copy = system.net.find_transition("copy_x[x.7:0->1]").unwrap();
+    assert_eq!(words(&notes.transitions[copy.index()]).join(" "), "part=system role=copy variable=x bit=7 value=1");
 }

@@ -224,8 +224,16 @@ fn steps_without_number_are_refused_before_they_are_made() {
     for states in [1000, u64::MAX] {
         let graph = explore(&space, Budget { states, bytes: u64::MAX }, &mut |_| None);
         assert!(graph.is_empty() && !graph.knows_initial() && !graph.is_complete());
-        assert_eq!(graph.stop(), &Stop::States(states.min(u64::from(u32::MAX) >> 1)));
+        let Stop::Refused(reason) = graph.stop() else { panic!("{:?}", graph.stop()) };
+        for part in ["`i0` (2 values)", "66 more", "say with a plant"] {
+            assert!(reason.contains(part), "{reason}");
+        }
     }
+    // Up to 2^24 of them are a matter of the budget.
+    let few = format!("PROGRAM p VAR_INPUT {} : BOOL; END_VAR\nLD i0\nEND_PROGRAM", names[..24].join(", "));
+    let few = support::systems::system(&few, &[]);
+    let graph = explore(&ScanSpace::new(&few), Budget { states: 1000, bytes: u64::MAX }, &mut |_| None);
+    assert_eq!(graph.stop(), &Stop::States(1000));
 }
 
 #[test]

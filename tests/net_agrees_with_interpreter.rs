@@ -15,7 +15,7 @@ use support::random_program;
 
 /// The value of each variable, read off a marking; both or no place of a bit marked would be no value.
 fn memory(system: &System, marking: &Marking) -> Vec<Option<bool>> {
-    let is = |variable, value| marking.is_marked(system.place(PlaceRole::Bit { variable, value }));
+    let is = |variable, value| marking.is_marked(system.place(PlaceRole::Bit { variable, bit: 0, value }));
     let variables = (0..system.program.variables.len()).map(VarId);
     variables
         .map(|v| match (is(v, false), is(v, true)) {
@@ -34,7 +34,7 @@ fn play(system: &System, marking: &mut Marking, inputs: &[bool]) -> Option<()> {
     while !marking.is_marked(end) {
         let chosen: Vec<_> = (system.net.enabled(marking))
             .filter(|t| match system.transitions[t.index()] {
-                TransitionRole::Copy { variable, value } => values.contains(&(variable, value)),
+                TransitionRole::Copy { variable, value, .. } => values.contains(&(variable, value)),
                 _ => true,
             })
             .collect();

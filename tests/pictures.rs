@@ -4,9 +4,12 @@
 mod support;
 
 use petril::draw::{Positions, diagram, subnet};
-use petril::translate::{System, TransitionRole};
+use petril::flat::{Condition, Element, Function, Instruction, Operand, Target};
+use petril::semantics::{Role, Type, VarId};
+use petril::translate::{Plant, System, TransitionRole};
 use roxmltree::{Document, Node};
 use support::systems::{CYLINDER, EVERY_INSTRUCTION, HANDS, TWO_HAND_SWITCH, system};
+use support::token_game::{flat, variable};
 
 /// A box; a text is the box around it.
 #[derive(Clone, Debug)]
@@ -174,6 +177,43 @@ fn a_whole_system_is_drawn_whole_and_legible() {
     assert_diagram(&system(EVERY_INSTRUCTION, &[odd]));
 }
 
+/// Arithmetic on numbers of 8 bits, with a hazard, a jump and an element of an array.
+fn wide() -> System {
+    let sint = Type::named("SINT").unwrap();
+    let mut index = variable("i", Role::Buffer, sint);
+    index.bits = 1;
+    let variables = vec![
+        variable("x", Role::Input, sint),
+        variable("a[0]", Role::Memory, sint),
+        variable("a[1]", Role::Memory, sint),
+        index,
+    ];
+    let element = Target::Element(Element { first: VarId(1), stride: 1, length: 2, index: VarId(3) });
+    let x = Operand::Place(Target::Variable(VarId(0)));
+    let combine =
+        |function| Instruction::Combine { function, ty: sint, negated: false, operand: Operand::Place(element) };
+    let code = vec![
+        Instruction::Load { ty: sint, negated: false, operand: x },
+        combine(Function::Add),
+        combine(Function::Mul),
+        combine(Function::Div),
+        Instruction::Store { ty: sint, negated: false, target: element },
+        combine(Function::Lt),
+        Instruction::Jump { condition: Condition::IfTrue, target: 7 },
+    ];
+    System::new(flat(variables, code), Plant::default())
+}
+
+#[test]
+fn wide_data_is_drawn_whole_and_legible() {
+    let system = wide();
+    assert_diagram(&system);
+    for line in [0, 1, 4, 5, 6] {
+        let shapes = assert_legible(&subnet(&system, line, None));
+        assert_eq!(shapes.boxes.len(), system.transitions_of(TransitionRole::Line(line)).count());
+    }
+}
+
 #[test]
 fn a_long_program_takes_space_and_time_in_proportion() {
     let program = |lines: usize| {
@@ -186,7 +226,7 @@ fn a_long_program_takes_space_and_time_in_proportion() {
 
 #[test]
 fn no_two_nodes_have_the_same_position() {
-    for system in [system(TWO_HAND_SWITCH, &[HANDS]), system(EVERY_INSTRUCTION, &[CYLINDER])] {
+    for system in [system(TWO_HAND_SWITCH, &[HANDS]), system(EVERY_INSTRUCTION, &[CYLINDER]), wide()] {
         let positions = Positions::of(&system);
         assert_eq!(positions.places.len(), system.net.places().len());
         assert_eq!(positions.transitions.len(), system.net.transitions().len());

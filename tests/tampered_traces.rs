@@ -3,12 +3,15 @@
 
 mod support;
 
-use petril::explore::{Budget, MarkingSpace, ScanSpace, explore};
+use petril::explore::{Budget, Failure, MarkingSpace, ScanSpace, explore};
+use petril::flat::Hazard;
+use petril::interpret::Fault;
 use petril::net::TransitionId;
-use petril::translate::{System, TransitionRole};
+use petril::translate::{Plant, System, TransitionRole};
 use petril::witness::{Disagreement, FiringTrace, ScanTrace, firing_trace, replay_firings, replay_scans, scan_trace};
 use proptest::prelude::*;
 use proptest::sample::Index;
+use support::assembler::assemble;
 use support::random_program;
 use support::reports::{counterexample, report};
 use support::systems::{HANDS, TWO_HAND_SWITCH, system};
@@ -74,12 +77,26 @@ fn a_scan_that_never_ends_cannot_be_claimed_to_end() {
         "PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\non: LD a\nST q\nJMPC on\nEND_PROGRAM";
     let system = system(text, &[]);
     let space = ScanSpace::new(&system);
-    let endless = scan_trace(&space, &[], None, true);
+    let endless = scan_trace(&space, &[], None, Some(Failure::Scan(Fault::Endless)));
     assert_eq!(replayed(&system, &endless), Ok(()));
     refused(&system, &endless, "in scan 1: it never ends", |trace| {
         trace.scans[0].end = Some(space.power_on());
     });
     refused(&system, &endless, "in scan 1: it ends", |trace| trace.scans[0].inputs[0].1 = 0);
+}
+
+#[test]
+fn an_error_cannot_be_claimed_where_there_is_none() {
+    let program = assemble("in d SINT\nvar c SINT 120", "LD c\nADD d\nST c\nLD SINT#7\nDIV d\nST c");
+    let system = System::new(program, Plant::default());
+    let space = ScanSpace::new(&system);
+    let by_zero = scan_trace(&space, &[], None, Some(Failure::Hazard(4, Hazard::DivisionByZero)));
+    assert_eq!(replayed(&system, &by_zero), Ok(()));
+    assert_eq!(by_zero.scans[0].inputs[0].1, 0);
+    let why = "in scan 1: it does not meet this hazard";
+    refused(&system, &by_zero, why, |trace| trace.scans[0].hazard = Some((1, Hazard::DivisionByZero)));
+    refused(&system, &by_zero, why, |trace| trace.scans[0].hazard = Some((4, Hazard::Overflow)));
+    refused(&system, &by_zero, why, |trace| trace.scans[0].inputs[0].1 = 1);
 }
 
 #[test]
@@ -142,7 +159,7 @@ proptest! {
         prop_assume!(!graph.is_empty());
         let path = graph.path_to(goal.index(graph.len()) as u32);
         let states: Vec<&[u64]> = path.iter().map(|&id| graph.state(id)).collect();
-        let mut trace = scan_trace(&space, &states, None, false);
+        let mut trace = scan_trace(&space, &states, None, None);
         prop_assert_eq!(replayed(&system, &trace), Ok(()));
         let scan = scan.index(trace.scans.len());
         let scan = &mut trace.scans[scan];

@@ -42,7 +42,9 @@ fn counterpart(f: &Bound, system: &System) -> Bound {
     let end = || Bound::Marked(system.place(PlaceRole::Line(system.program.end())));
     let of = |f: &Bound| Box::new(counterpart(f, system));
     match f {
-        Bound::Variable(variable) => Bound::Marked(system.place(PlaceRole::Bit { variable: *variable, value: true })),
+        Bound::Variable(variable) => {
+            Bound::Marked(system.place(PlaceRole::Bit { variable: *variable, bit: 0, value: true }))
+        }
         Bound::Truth(_) => f.clone(),
         Bound::Compare(comparison, a, b) => Bound::Compare(*comparison, term(a, system), term(b, system)),
         Bound::Not(f) => Bound::Not(of(f)),
@@ -73,6 +75,7 @@ fn term(t: &petril::logic::Term, system: &System) -> petril::logic::Term {
     let of = |t: &Term| Box::new(term(t, system));
     match t {
         Term::Number(n) => Term::Number(*n),
+        Term::Variable(..) | Term::Bits { .. } => unreachable!("the programs have truth values only"),
         Term::Truth(f) => Term::Truth(Box::new(counterpart(f, system))),
         Term::Sum(a, b) => Term::Sum(of(a), of(b)),
         Term::Difference(a, b) => Term::Difference(of(a), of(b)),
@@ -138,7 +141,7 @@ proptest! {
         let all = explore(&markings, Budget::default(), &mut |_| None);
         let end = system.place(PlaceRole::Line(system.program.end()));
         let at_end = all.ids().filter(|&s| markings.is_marked(all.state(s), end));
-        let value = |s, variable| markings.is_marked(all.state(s), system.place(PlaceRole::Bit { variable, value: true }));
+        let value = |s, variable| markings.is_marked(all.state(s), system.place(PlaceRole::Bit { variable, bit: 0, value: true }));
         let mut from_markings: Vec<Vec<bool>> =
             at_end.map(|s| system.program.declared().map(|v| value(s, v)).collect()).collect();
         for list in [&mut from_scans, &mut from_markings] {

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 
+use super::meaning::{Meaning, Timing};
+
 /// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
 ///
 /// Exit codes: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
@@ -82,6 +84,10 @@ pub struct Check {
     /// A requirement as a formula. May be given several times.
     #[arg(short = 'r', long = "requirement", value_name = "FORMULA", allow_hyphen_values = true)]
     pub requirement: Vec<String>,
+    /// What an input can be that no plant drives, like `level: 0..100` or `k: 0, 3, 7`. May be given several times; a
+    /// requirement file may say it too (`domain level: 0..100;`).
+    #[arg(long, value_name = "DOMAIN")]
+    pub domain: Vec<String>,
     /// What a state is: the end of a scan, or a marking of the net.
     #[arg(long, value_enum, default_value_t = View::Scan)]
     pub view: View,
@@ -98,6 +104,9 @@ pub struct Check {
     /// Print the runs that show what is possible, too (for EF and its like).
     #[arg(long)]
     pub witnesses: bool,
+    /// What the program means on its PLC.
+    #[command(flatten)]
+    pub meaning: Meaning,
     /// Limits of the exploration.
     #[command(flatten)]
     pub limits: Limits,
@@ -144,6 +153,9 @@ pub struct Translate {
     /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot, .svg.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
 }
 
 /// `petril flat`
@@ -155,6 +167,9 @@ pub struct Flat {
     /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
     #[arg(long, value_name = "NAME")]
     pub pou: Option<String>,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
 }
 
 /// `petril simulate`
@@ -176,6 +191,9 @@ pub struct Simulate {
     /// How to print.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub format: Format,
+    /// What the program means on its PLC.
+    #[command(flatten)]
+    pub meaning: Meaning,
 }
 
 /// Forms of a simulation.
@@ -208,6 +226,9 @@ pub struct Draw {
     /// Where to write the SVG picture.
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: PathBuf,
+    /// How often scans come.
+    #[command(flatten)]
+    pub timing: Timing,
 }
 
 /// The verbs on nets.

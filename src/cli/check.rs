@@ -3,12 +3,15 @@
 use std::process::ExitCode;
 
 use petril::exchange::json;
-use petril::logic;
+use petril::logic::{self, Bound, Requirement, representatives};
+use petril::translate::System;
 use petril::verdict::{Options, Verdict, check};
 
 use super::args::{Check, View};
 use super::console::Console;
+use super::input::Program;
 use super::progress::Watcher;
+use super::requirements::Asked;
 use super::{Failure, Outcome, input, report};
 
 pub fn run(arguments: &Check, console: &Console) -> Outcome {
@@ -20,10 +23,23 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let (system, source) = input::system(&arguments.program, arguments.pou.as_deref(), &arguments.plant, console)?;
-    let requirements = input::requirements(&arguments.require, &arguments.requirement, &system, view, console)?;
+    let timing = arguments.meaning.timing;
+    let (Program { flat: program, source }, plant) =
+        input::parts(&arguments.program, arguments.pou.as_deref(), &arguments.plant, timing, console)?;
+    let mut asked = Asked::read(arguments, console)?;
+    let domains = asked.domains(&program, &plant);
+    let mut system = System::with_domains(program, plant, domains);
+    let requirements = asked.requirements(&system, view, console)?;
+    if view == logic::View::Scan {
+        system = with_representatives(system, &requirements);
+    }
     let watcher = Watcher::new(&arguments.limits)?;
-    let options = Options { view, fair: arguments.fair, budget: arguments.limits.budget() };
+    let options = Options {
+        view,
+        fair: arguments.fair,
+        budget: arguments.limits.budget(),
+        tolerated: arguments.meaning.tolerated(),
+    };
     let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
     watcher.finish();
     if arguments.json {
@@ -37,4 +53,16 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         Verdict::Violated => ExitCode::from(1),
         Verdict::Unknown => ExitCode::from(3),
     })
+}
+
+/// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.
+fn with_representatives(system: System, requirements: &[(Requirement, Bound)]) -> System {
+    let formulas: Vec<&Bound> = requirements.iter().map(|(_, formula)| formula).collect();
+    let mut found = representatives(&system, &formulas);
+    if found.is_empty() {
+        return system;
+    }
+    let System { program, plant, mut domains, .. } = system;
+    domains.append(&mut found);
+    System::with_domains(program, plant, domains)
 }

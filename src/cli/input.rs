@@ -1,4 +1,4 @@
-//! Files in: programs, plants, requirements.
+//! Files in: programs and plants.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -7,19 +7,19 @@ use std::path::Path;
 
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::exchange::{pnml, tina};
-use petril::flat::{FlatProgram, flatten};
-use petril::logic::{Bound, Requirement, View, bind, parse_formula, parse_requirements};
+use petril::flat::{FlatProgram, flatten_with};
 use petril::net::Located;
 use petril::semantics;
 use petril::source::{NotText, Source, Span};
 use petril::syntax;
 use petril::translate::{Plant, System};
 
-use super::console::{Console, MAX_DIAGNOSTICS};
+use super::console::Console;
+use super::meaning::Timing;
 use super::{Failure, reason};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
-const MAX_TEXT: u64 = 64 << 20;
+pub const MAX_TEXT: u64 = 64 << 20;
 const MAX_NET: u64 = 2 << 30;
 
 /// Reads a file as text. `-` is standard input.
@@ -63,14 +63,15 @@ pub struct Program {
 }
 
 /// Reads a program, or the unit of this name. Its diagnostics are printed, warnings too.
-pub fn program(path: &Path, pou: Option<&str>, console: &Console) -> Result<Program, Failure> {
+pub fn program(path: &Path, pou: Option<&str>, timing: Timing, console: &Console) -> Result<Program, Failure> {
     let source = source(path, MAX_TEXT, console)?;
     let (unit, mut diagnostics) = syntax::parse(&source);
     let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), pou);
     diagnostics.extend(more);
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
-    program.map(|program| Program { flat: flatten(&program), source }).ok_or(Failure::Reported)
+    let program = program.ok_or(Failure::Reported)?;
+    Ok(Program { flat: flatten_with(&program, timing.scan_time), source })
 }
 
 /// Reads a net, by the ending of its name.
@@ -94,76 +95,38 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
     }
 }
 
-/// A program in its plants.
+/// A program in its plants, free inputs having any value.
 pub fn system<P: AsRef<Path>>(
     path: &Path,
     pou: Option<&str>,
     plants: &[P],
+    timing: Timing,
     console: &Console,
 ) -> Result<(System, Source), Failure> {
-    let program = program(path, pou, console);
+    let (program, plant) = parts(path, pou, plants, timing, console)?;
+    Ok((System::new(program.flat, plant), program.source))
+}
+
+/// A program and its plants.
+pub fn parts<P: AsRef<Path>>(
+    path: &Path,
+    pou: Option<&str>,
+    plants: &[P],
+    timing: Timing,
+    console: &Console,
+) -> Result<(Program, Plant), Failure> {
+    let program = program(path, pou, timing, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
-    let Program { flat, source } = program?;
+    let program = program?;
     let mut plant = Plant::default();
     let mut failed = false;
     for net in nets {
         let (net, net_source) = net?;
-        if let Err(diagnostics) = plant.add(&net, &flat) {
+        if let Err(diagnostics) = plant.add(&net, &program.flat) {
             console.diagnostics(&diagnostics, &net_source);
             failed = true;
         }
     }
-    if failed { Err(Failure::Reported) } else { Ok((System::new(flat, plant), source)) }
-}
-
-/// Reads the requirement files and formulas, and binds them.
-pub fn requirements(
-    files: &[impl AsRef<Path>],
-    formulas: &[String],
-    system: &System,
-    view: View,
-    console: &Console,
-) -> Result<Vec<(Requirement, Bound)>, Failure> {
-    let mut failed = false;
-    let mut texts = Vec::new();
-    for (i, formula) in formulas.iter().enumerate() {
-        let source = Source::new(format!("formula r{}", i + 1), formula.as_str());
-        texts.push(match parse_formula(&format!("r{}", i + 1), &source) {
-            Ok(requirement) => (vec![requirement], vec![], source),
-            Err(error) => (vec![], vec![error], source),
-        });
-    }
-    for file in files {
-        match source(file.as_ref(), MAX_TEXT, console) {
-            Ok(source) => {
-                let (requirements, diagnostics) = parse_requirements(&source);
-                texts.push((requirements, diagnostics, source));
-            }
-            Err(Failure::Reported) => failed = true,
-            Err(failure) => return Err(failure),
-        }
-    }
-    let mut bound: Vec<(Requirement, Bound)> = Vec::new();
-    for (requirements, mut diagnostics, source) in texts {
-        let others = bound.len();
-        for requirement in requirements {
-            if bound[..others].iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
-                let message = format!("a requirement named `{}` was given already", requirement.name);
-                let help = "give each a name of its own; the formulas of `-r` are named r1, r2, …";
-                diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message).help(help));
-            }
-            if diagnostics.len() >= MAX_DIAGNOSTICS {
-                break;
-            }
-            match bind(&requirement.formula, system, view) {
-                Ok(formula) => bound.push((requirement, formula)),
-                Err(errors) => diagnostics.extend(errors),
-            }
-        }
-        diagnostics.sort_by_key(Diagnostic::span);
-        console.diagnostics(&diagnostics, &source);
-        failed |= any_error(&diagnostics);
-    }
-    if failed { Err(Failure::Reported) } else { Ok(bound) }
+    if failed { Err(Failure::Reported) } else { Ok((program, plant)) }
 }

@@ -8,10 +8,13 @@ mod console;
 mod draw;
 mod flat;
 mod input;
+mod input_table;
+mod meaning;
 mod net_info;
 mod output;
 mod progress;
 mod report;
+mod requirements;
 mod simulate;
 mod translate;
 

@@ -1,9 +1,10 @@
 //! The report of a check as text for people.
 
+use petril::flat::value_text;
 use petril::logic::View;
 use petril::source::Source;
 use petril::translate::{Part, System};
-use petril::verdict::{Answer, Outcome, Report, Trace, Verdict, Witness};
+use petril::verdict::{Answer, Outcome, Remark, Report, Trace, Verdict, Witness};
 use petril::witness::{Column, FiringTrace, ScanTrace, Table, firing_table, line_by_line, scan_table};
 
 use super::args::Check;
@@ -41,9 +42,31 @@ impl Text<'_> {
         out += &summary(report);
         let names: Vec<&str> = fine.iter().map(|check| check.name.as_str()).collect();
         if !names.is_empty() {
-            out += &format!("checked without asking: {} holds\n", names.join(", "));
+            let verb = if names.len() == 1 { "holds" } else { "hold" };
+            out += &format!("checked without asking: {} {verb}\n", names.join(", "));
         }
+        out += &self.remarks(report);
         out
+    }
+
+    /// One line for each remark, and for each line of source.
+    fn remarks(&self, report: &Report) -> String {
+        let program = &self.system.program;
+        let mut last = 0;
+        let text = |remark: &Remark| match *remark {
+            Remark::NeverChanges(output, value) => {
+                let output = program.variable(output);
+                let value = value_text(output.ty, value);
+                Some(format!("note: `{}` is {value} at the end of every scan\n", output.name))
+            }
+            Remark::NeverExecuted(line) => {
+                let from = self.source.line_of(program.code[line].span.start);
+                let is_new = std::mem::replace(&mut last, from) != from;
+                let (name, text) = (self.source.name(), self.source.line_text(from).trim());
+                is_new.then(|| format!("note: this is never executed: {name}:{from}: {text}\n"))
+            }
+        };
+        report.remarks.iter().filter_map(text).collect()
     }
 
     fn size(&self) -> Table {
@@ -125,6 +148,12 @@ impl Text<'_> {
             out += &format!("    {}\n", note.sentence(report.exploration.view));
         }
         match &witness.trace {
+            Trace::Scans(ScanTrace { scans, loop_start: None }) => {
+                if let Some((line, _)) = scans.last().and_then(|scan| scan.hazard) {
+                    let from = self.source.line_of(self.system.program.code[line].span.start);
+                    out += &format!("    {}:{from}: {}\n", self.source.name(), self.source.line_text(from).trim());
+                }
+            }
             Trace::Scans(ScanTrace { scans, loop_start: Some(start) }) => {
                 let (last, first) = (scans.len(), start + 1);
                 out += &format!("    and so on for ever: scan {last} ends in the state in which scan {first} ended\n");

@@ -1,18 +1,17 @@
 //! `petril simulate`: a program scan by scan.
 
-use std::collections::BTreeSet;
+use std::process::ExitCode;
 
-use petril::diagnostic::{Code, Diagnostic};
-use petril::flat::FlatProgram;
+use petril::flat::{FlatProgram, Hazard, value_text};
 use petril::interpret::{Fault, Machine};
-use petril::semantics::{Role, VarId};
-use petril::source::{Source, Span};
-use petril::syntax::ast::key;
+use petril::semantics::Type;
+use petril::source::Source;
 use petril::witness::{Column, Table};
 
 use super::args::{Format, Simulate};
 use super::console::Console;
-use super::{Failure, Outcome, input};
+use super::input::Program;
+use super::{Failure, Outcome, SUCCESS, input, input_table};
 
 /// Scans simulated if neither inputs nor a number is given.
 const DEFAULT_SCANS: usize = 10;
@@ -21,12 +20,13 @@ const DEFAULT_SCANS: usize = 10;
 const MAX_INPUTS: u64 = 1 << 30;
 
 pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
-    let program = input::program(&arguments.program, arguments.pou.as_deref(), console)?.flat;
+    let Program { flat: program, source } =
+        input::program(&arguments.program, arguments.pou.as_deref(), arguments.meaning.timing, console)?;
     let rows = match &arguments.inputs {
         None => Vec::new(),
         Some(path) => {
             let source = input::source(path, MAX_INPUTS, console)?;
-            inputs(&source, &program).map_err(|diagnostics| {
+            input_table::read(&source, &program).map_err(|diagnostics| {
                 console.diagnostics(&diagnostics, &source);
                 Failure::Reported
             })?
@@ -34,7 +34,8 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     };
     let scans = arguments.scans.unwrap_or(if arguments.inputs.is_some() { rows.len() } else { DEFAULT_SCANS });
     let mut machine = Machine::new(&program);
-    let mut states = Vec::with_capacity(scans);
+    let mut states: Vec<Vec<u64>> = Vec::new();
+    let mut stopped = None;
     for scan in 0..scans {
         if let Some(row) = rows.get(scan) {
             row.iter().for_each(|&(input, value)| machine.set(input, value));
@@ -46,105 +47,44 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
             })
         })?;
         states.push(program.declared().map(|id| machine.value(id)).collect());
+        stopped = arguments.meaning.tolerated().first_error(machine.hazards());
+        if stopped.is_some() {
+            break;
+        }
     }
     console.print(&match arguments.format {
         Format::Csv => csv(&program, &states),
         Format::Table => table(&program, &states).to_string(),
+    })?;
+    Ok(match stopped {
+        Some(error) => {
+            console.error(&explain(error, states.len(), &program, &source));
+            ExitCode::from(1)
+        }
+        None => SUCCESS,
     })
 }
 
-/// The rows of a table of inputs: the values each sets.
-fn inputs(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, u64)>>, Vec<Diagnostic>> {
-    let mut errors = Vec::new();
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text().as_bytes());
-    // The reader gives no columns, so a diagnostic points at the whole line.
-    let line = |position: Option<&csv::Position>| {
-        let start = position.map_or(0, |position| position.byte() as usize);
-        let length = source.text().get(start..).and_then(|rest| rest.lines().next()).map_or(0, str::len);
-        Span::new(start, start + length)
+/// What went wrong in a scan, where, and how to go on.
+fn explain((line, hazard): (usize, Hazard), scan: usize, program: &FlatProgram, source: &Source) -> String {
+    let (what, help) = match hazard {
+        Hazard::Overflow => ("a number does not fit its type", "; with `--overflow wrap`, the simulation goes on"),
+        Hazard::DivisionByZero => ("a number is divided by 0", "; with `--div0 zero`, the simulation goes on"),
+        Hazard::Index => ("an index is outside its array", ""),
+        Hazard::Subrange => ("a value is outside the subrange of its variable", ""),
     };
-    let head = match reader.headers() {
-        Ok(head) => head.clone(),
-        Err(error) => return Err(vec![malformed(&error, Span::default())]),
-    };
-    if head.is_empty() {
-        let empty = Diagnostic::new(Code::InputTable, Span::default(), "this table of inputs is empty");
-        return Err(vec![empty.help("write the names of the inputs in the first row, then one row for each scan")]);
-    }
-    let known = || program.with_role(Role::Input);
-    let mut names = BTreeSet::new();
-    for twice in head.iter().filter(|name| !names.insert(key(name))) {
-        let message = format!("two columns are named `{twice}`");
-        errors.push(Diagnostic::new(Code::InputTable, line(head.position()), message).help("remove one of them"));
-    }
-    let columns: Vec<Option<VarId>> = (head.iter())
-        .map(|name| {
-            let input = known().find(|&id| program.variable(id).name.eq_ignore_ascii_case(name));
-            if input.is_none() {
-                let message = match program.find(name) {
-                    Some(_) => format!("`{name}` is no input of the program `{}`", program.name),
-                    None => format!("the program `{}` has no input `{name}`", program.name),
-                };
-                let names = known().map(|id| program.variable(id).name.as_str());
-                errors.push(Diagnostic::new(Code::InputTable, line(head.position()), message).suggest_at(
-                    errors.len(),
-                    name,
-                    names,
-                ));
-            }
-            input
-        })
-        .collect();
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = match record {
-            Ok(record) => record,
-            Err(error) => {
-                errors.push(malformed(&error, line(error.position())));
-                continue;
-            }
-        };
-        let mut row = Vec::new();
-        for (input, cell) in columns.iter().zip(&record) {
-            match (input, truth(cell)) {
-                (Some(input), Some(value)) => row.push((*input, value)),
-                (None, _) => {}
-                (Some(_), None) => {
-                    let message = format!("`{cell}` is no value of type `BOOL`");
-                    errors
-                        .push(Diagnostic::new(Code::InputTable, line(record.position()), message).help("write 0 or 1"));
-                }
-            }
-        }
-        rows.push(row);
-    }
-    if errors.is_empty() { Ok(rows) } else { Err(errors) }
-}
-
-/// A row that is none.
-fn malformed(error: &csv::Error, span: Span) -> Diagnostic {
-    let csv::ErrorKind::UnequalLengths { expected_len, len, .. } = error.kind() else {
-        return Diagnostic::new(Code::InputTable, span, error.to_string());
-    };
-    let message =
-        format!("this row has another number of values ({len}) than the first row has names ({expected_len})");
-    Diagnostic::new(Code::InputTable, span, message).help("give each input one value, separated by commas")
-}
-
-fn truth(cell: &str) -> Option<u64> {
-    match cell {
-        "0" => Some(0),
-        "1" => Some(1),
-        _ if cell.eq_ignore_ascii_case("FALSE") => Some(0),
-        _ if cell.eq_ignore_ascii_case("TRUE") => Some(1),
-        _ => None,
-    }
+    let from = source.line_of(program.code[line].span.start);
+    format!("in scan {scan}, {what} ({}:{from}: {}){help}", source.name(), source.line_text(from).trim())
 }
 
 /// A row a scan: its number, then the declared variables.
-fn rows(states: &[Vec<u64>]) -> impl Iterator<Item = Vec<String>> {
-    states.iter().enumerate().map(|(scan, state)| {
-        let values = state.iter().map(|&value| value.to_string());
+fn rows(
+    program: &FlatProgram,
+    states: &[Vec<u64>],
+    text: impl Fn(Type, u64) -> String,
+) -> impl Iterator<Item = Vec<String>> {
+    states.iter().enumerate().map(move |(scan, state)| {
+        let values = program.declared().zip(state).map(|(id, &value)| text(program.variable(id).ty, value));
         std::iter::once((scan + 1).to_string()).chain(values).collect()
     })
 }
@@ -152,12 +92,16 @@ fn rows(states: &[Vec<u64>]) -> impl Iterator<Item = Vec<String>> {
 fn csv(program: &FlatProgram, states: &[Vec<u64>]) -> String {
     let names = program.declared().map(|id| program.variable(id).name.clone());
     let head: Vec<String> = std::iter::once("cycle".to_owned()).chain(names).collect();
-    std::iter::once(head).chain(rows(states)).map(|row| row.join(",") + "\n").collect()
+    let rows = rows(program, states, |ty, value| ty.number(value).to_string());
+    // The name of an element of an array with several dimensions has a comma.
+    let cell = |cell: String| if cell.contains(',') { format!("\"{cell}\"") } else { cell };
+    let line = |row: Vec<String>| row.into_iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
+    std::iter::once(head).chain(rows).map(line).collect()
 }
 
 fn table(program: &FlatProgram, states: &[Vec<u64>]) -> Table {
     let names = program.declared().map(|id| Column::right(&program.variable(id).name)).collect();
     let mut table = Table::new(vec![vec![Column::right("scan")], names]);
-    rows(states).for_each(|row| table.row(row));
+    rows(program, states, value_text).for_each(|row| table.row(row));
     table
 }

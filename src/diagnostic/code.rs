@@ -204,6 +204,8 @@ codes! {
     RequirementNameTwice = "E0504",
     /// A requirement asks for something this view of the system does not have.
     RequirementView = "E0505",
+    /// A domain does not fit what it is for.
+    DomainUnfit = "E0506",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

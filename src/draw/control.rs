@@ -1,58 +1,63 @@
 //! The way of the control token through a system: `idle`, the copying of each input, the lines, `End`, and back.
 
-use crate::net::PlaceId;
-use crate::semantics::{Role, VarId};
-use crate::translate::{PlaceRole, System, TransitionRole};
+use crate::net::{PlaceId, TransitionId};
+use crate::translate::{PlaceRole, System};
 
 /// The control places in the order in which the token passes them where no jump is taken, counted from 0.
-pub struct Control {
-    inputs: Vec<VarId>,
-    end: usize,
+pub struct Control<'a> {
+    system: &'a System,
+    places: Vec<PlaceId>,
+    /// For each place of the net, where it stands in the order, if control passes it.
+    rows: Vec<Option<usize>>,
+    /// For each transition of the net, where the place stands from which it takes the token, if it does.
+    moves: Vec<Option<usize>>,
 }
 
-impl Control {
-    pub fn of(system: &System) -> Self {
-        Self { inputs: system.program.with_role(Role::Input).collect(), end: system.program.end() }
+impl<'a> Control<'a> {
+    pub fn of(system: &'a System) -> Self {
+        let role = |place: PlaceId| system.places[place.index()];
+        let mut places: Vec<PlaceId> = system.net.place_ids().filter(|&place| role(place).is_control()).collect();
+        places.sort_by_key(|&place| key(role(place)));
+        let mut rows = vec![None; system.places.len()];
+        let mut moves = vec![None; system.transitions.len()];
+        for (row, &place) in places.iter().enumerate() {
+            rows[place.index()] = Some(row);
+            system.moves(place).iter().for_each(|id| moves[id.index()] = Some(row));
+        }
+        Self { system, places, rows, moves }
     }
 
     /// How many control places there are.
     pub fn len(&self) -> usize {
-        self.line(self.end) + 1
+        self.places.len()
     }
 
     /// Where a place stands in the order, if control passes it.
-    pub fn of_place(&self, role: PlaceRole) -> Option<usize> {
-        match role {
-            PlaceRole::Idle => Some(0),
-            PlaceRole::Copy(input) => Some(self.copy(input)),
-            PlaceRole::Line(line) => Some(self.line(line)),
-            PlaceRole::Bit { .. } | PlaceRole::Result(_) | PlaceRole::Blocking(_) | PlaceRole::Plant(_) => None,
-        }
+    pub fn of_place(&self, place: PlaceId) -> Option<usize> {
+        self.rows[place.index()]
     }
 
     /// Where the place stands from which a transition takes the token, if it does.
-    pub fn of_transition(&self, role: TransitionRole) -> Option<usize> {
-        match role {
-            TransitionRole::Block => Some(0),
-            TransitionRole::Copy { variable, .. } => Some(self.copy(variable)),
-            TransitionRole::Line(line) => Some(self.line(line)),
-            TransitionRole::Unblock => Some(self.line(self.end)),
-            TransitionRole::Plant { .. } => None,
-        }
+    pub fn of_transition(&self, transition: TransitionId) -> Option<usize> {
+        self.moves[transition.index()]
+    }
+
+    /// The transitions that take the token from the place that stands there.
+    pub fn transitions(&self, row: usize) -> &[TransitionId] {
+        self.system.moves(self.places[row])
     }
 
     /// All control places in their order.
-    pub fn places(&self, system: &System) -> Vec<PlaceId> {
-        let copies = self.inputs.iter().map(|&input| PlaceRole::Copy(input));
-        let lines = (0..=self.end).map(PlaceRole::Line);
-        [PlaceRole::Idle].into_iter().chain(copies).chain(lines).map(|role| system.place(role)).collect()
+    pub fn places(&self) -> &[PlaceId] {
+        &self.places
     }
+}
 
-    fn copy(&self, input: VarId) -> usize {
-        1 + self.inputs.partition_point(|&earlier| earlier < input)
-    }
-
-    fn line(&self, line: usize) -> usize {
-        1 + self.inputs.len() + line
+/// Orders control places: by where they are in the cycle, then by input or line, then within.
+fn key(role: PlaceRole) -> (usize, usize, PlaceRole) {
+    match role {
+        PlaceRole::Copy(input) | PlaceRole::Copying(input, _) => (1, input.0, role),
+        PlaceRole::Line(line) | PlaceRole::Within(line, _) | PlaceRole::Hazard(line, _) => (2, line, role),
+        _ => (0, 0, role),
     }
 }

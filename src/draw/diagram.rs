@@ -41,12 +41,26 @@ enum Content<'a> {
 /// Draws the net of a system.
 #[must_use]
 pub fn diagram(system: &System) -> String {
-    let pieces: Vec<Piece<'_>> = steps(system).into_iter().chain(components(system)).chain(bits(system)).collect();
-    let columns = columns(system, &pieces);
-    let mut sheet = Sheet::default();
+    let steps = steps(system, |_| true);
+    let pieces: Vec<Piece<'_>> = steps.into_iter().chain(components(system)).chain(bits(system)).collect();
     let title =
         format!("{}: {} places, {} transitions", system.net.name(), system.places.len(), system.transitions.len());
-    sheet.text(At { x: MARGIN, y: MARGIN }, Anchor::Start, &title, true);
+    sheet(system, &pieces, &title)
+}
+
+/// Draws the subnet of a line of flat code that control passes in several steps.
+pub fn line(system: &System, line: usize, title: &str) -> String {
+    let is_in_line = |role| match role {
+        PlaceRole::Line(own) | PlaceRole::Within(own, _) | PlaceRole::Hazard(own, _) => own == line,
+        _ => false,
+    };
+    sheet(system, &steps(system, is_in_line), title)
+}
+
+fn sheet(system: &System, pieces: &[Piece<'_>], title: &str) -> String {
+    let columns = columns(system, pieces);
+    let mut sheet = Sheet::default();
+    sheet.text(At { x: MARGIN, y: MARGIN }, Anchor::Start, title, true);
     sheet.text(At { x: MARGIN, y: MARGIN + 18.0 }, Anchor::Start, LEGEND, false);
     let top = MARGIN + 56.0;
     let (mut x, mut bottom) = (MARGIN, top);
@@ -60,35 +74,29 @@ pub fn diagram(system: &System) -> String {
         x += widths.total() + GUTTER;
         bottom = bottom.max(y);
     }
-    let right = (x - GUTTER).max(MARGIN + width(LEGEND));
-    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, &title)
+    let right = (x - GUTTER).max(MARGIN + width(LEGEND).max(width(title)));
+    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
 }
 
-/// The control places in their order, each with what happens there.
-fn steps(system: &System) -> Vec<Piece<'_>> {
+/// The wanted control places in their order, each with what happens there.
+fn steps(system: &System, wanted: impl Fn(PlaceRole) -> bool) -> Vec<Piece<'_>> {
     let control = Control::of(system);
-    let mut transitions = vec![Vec::new(); control.len()];
-    for id in system.net.transition_ids() {
-        if let Some(step) = control.of_transition(system.transitions[id.index()]) {
-            transitions[step].push(id);
-        }
-    }
-    let places = control.places(system);
-    let steps = transitions.into_iter().enumerate().map(|(i, transitions)| {
-        let own = places[i];
-        let next = places[(i + 1) % places.len()];
+    let places = control.places();
+    let rows = places.iter().enumerate().filter(|(_, own)| wanted(system.places[own.index()]));
+    let steps = rows.map(|(row, &own)| {
+        let transitions = control.transitions(row);
+        let next = places[(row + 1) % places.len()];
         let text = match system.places[own.index()] {
             PlaceRole::Line(line) => system.program.code.get(line).map(|code| system.program.text(code.instruction)),
             _ => None,
         };
         let arcs = transitions.iter().flat_map(|&id| &system.net.transition(id).arcs.produce);
-        let mut targets: Vec<PlaceId> =
-            arcs.copied().filter(|place| control.of_place(system.places[place.index()]).is_some()).collect();
+        let mut targets: Vec<PlaceId> = arcs.copied().filter(|&place| control.of_place(place).is_some()).collect();
         targets.sort_unstable();
         targets.dedup();
         targets.retain(|&place| place != own && place != next);
         let left = [own].into_iter().chain(targets).chain([next]).collect();
-        let block = Block::new(system, left, &transitions);
+        let block = Block::new(system, left, transitions);
         Piece { heading: None, content: Content::Step { block, own, next, text: text.unwrap_or_default() } }
     });
     steps.collect()
@@ -115,10 +123,7 @@ fn components(system: &System) -> Vec<Piece<'_>> {
 }
 
 fn bits(system: &System) -> Vec<Piece<'_>> {
-    let places = system
-        .net
-        .place_ids()
-        .filter(|place| matches!(system.places[place.index()], PlaceRole::Bit { .. } | PlaceRole::Result(_)));
+    let places = system.net.place_ids().filter(|place| system.places[place.index()].is_bit());
     let places: Vec<PlaceId> = places.collect();
     let pairs = places.chunks_exact(2).enumerate();
     let pieces = pairs.map(|(i, pair)| Piece {

@@ -1,7 +1,7 @@
 //! One position for each node of a system net, for tools that show nets and do not place them.
 //!
 //! The control places stand in the first column in the order in which the token passes them; half a row below each stand the
-//! transitions that take the token there. On the right come the bits, one variable a row, and then the plant, one component
+//! transitions that take the token there. On the right come the bits, one a row, and then the plant, one component
 //! below the other.
 
 use super::control::Control;
@@ -37,36 +37,38 @@ impl Positions {
     #[must_use]
     pub fn of(system: &System) -> Self {
         let control = Control::of(system);
-        let mut in_row = vec![0; control.len()];
-        for row in system.transitions.iter().filter_map(|&role| control.of_transition(role)) {
-            in_row[row] += 1;
-        }
-        let bits = 2 + in_row.iter().max().copied().unwrap_or(0);
+        let in_row = (0..control.len()).map(|row| control.transitions(row).len());
+        let bits = 2 + in_row.max().unwrap_or(0);
         let plant = bits + 3;
         let tops = component_tops(system);
 
         let mut in_component = vec![0; tops.len()];
-        let places = system.places.iter().map(|&role| match role {
-            PlaceRole::Idle | PlaceRole::Copy(_) | PlaceRole::Line(_) => {
-                point(0, 2 * control.of_place(role).unwrap_or_default())
+        let mut pairs = system.result_width() as usize;
+        let places = system.net.place_ids().zip(&system.places).map(|(place, &role)| match role {
+            PlaceRole::Result { bit, value } => point(bits + usize::from(value), 2 * bit as usize),
+            PlaceRole::Bit { value, .. } | PlaceRole::Register { value, .. } => {
+                // The two places of a bit follow each other.
+                pairs += usize::from(!value);
+                point(bits + usize::from(value), 2 * (pairs - 1))
             }
-            PlaceRole::Result(value) => point(bits + usize::from(value), 0),
-            PlaceRole::Bit { variable, value } => point(bits + usize::from(value), 2 * (1 + variable.0)),
             PlaceRole::Blocking(component) => point(plant + 1, 2 * tops[component] + 1),
             PlaceRole::Plant(component) => {
                 in_component[component] += 1;
                 point(plant, 2 * (tops[component] + in_component[component] - 1))
             }
+            _ => point(0, 2 * control.of_place(place).unwrap_or_default()),
         });
         let mut column = vec![0; control.len()];
-        let transitions = system.transitions.iter().map(|&role| match (role, control.of_transition(role)) {
-            (TransitionRole::Plant { component, transition }, _) => {
-                point(plant + 2, 2 * (tops[component] + transition) + 1)
-            }
-            (_, row) => {
-                let row = row.unwrap_or_default();
-                column[row] += 1;
-                point(column[row], 2 * row + 1)
+        let transitions = system.net.transition_ids().zip(&system.transitions).map(|(id, &role)| {
+            match (role, control.of_transition(id)) {
+                (TransitionRole::Plant { component, transition }, _) => {
+                    point(plant + 2, 2 * (tops[component] + transition) + 1)
+                }
+                (_, row) => {
+                    let row = row.unwrap_or_default();
+                    column[row] += 1;
+                    point(column[row], 2 * row + 1)
+                }
             }
         });
         Self { places: places.collect(), transitions: transitions.collect() }

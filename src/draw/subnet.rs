@@ -1,6 +1,7 @@
 //! The subnet of one instruction.
 
 use super::block::Block;
+use super::diagram;
 use super::svg::{Anchor, At, BOX_HEIGHT, PlaceStyle, RADIUS, Sheet, width};
 use crate::net::PlaceId;
 use crate::translate::{PlaceRole, System, TransitionRole};
@@ -9,7 +10,8 @@ use crate::translate::{PlaceRole, System, TransitionRole};
 const MARGIN: f64 = 16.0;
 
 /// Draws the subnet of a line of flat code (from 0): the transitions that execute it and the places they touch. Control
-/// enters on the left above and leaves below; the bits are on the right.
+/// enters on the left above and leaves below; the bits are on the right. An instruction of several steps is drawn step by
+/// step.
 ///
 /// # Panics
 /// If the program does not have the line.
@@ -17,6 +19,9 @@ const MARGIN: f64 = 16.0;
 pub fn subnet(system: &System, line: usize, title: Option<&str>) -> String {
     let transitions: Vec<_> = system.transitions_of(TransitionRole::Line(line)).collect();
     let own = system.place(PlaceRole::Line(line));
+    if system.moves(own).len() < transitions.len() {
+        return diagram::line(system, line, title.unwrap_or(&system.net.place(own).name));
+    }
     let arcs = transitions.iter().map(|&id| &system.net.transition(id).arcs);
     let mut targets: Vec<PlaceId> = arcs.flat_map(|arcs| &arcs.produce).copied().collect();
     targets.retain(|place| matches!(system.places[place.index()], PlaceRole::Line(_)));

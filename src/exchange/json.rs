@@ -4,10 +4,10 @@ use serde_json::{Map, Value, json};
 
 use crate::diagnostic::Diagnostic;
 use crate::logic::View;
-use crate::semantics::{Role, VarId};
+use crate::semantics::{Role, Type, VarId};
 use crate::source::Source;
 use crate::translate::{Part, System, TransitionRole};
-use crate::verdict::{Answer, Outcome, Report, Trace, Witness};
+use crate::verdict::{Answer, Outcome, Remark, Report, Trace, Witness};
 use crate::witness::{FiringTrace, Scan, ScanTrace};
 
 /// A diagnostic: code, severity, message, file, line and column from 1, help.
@@ -49,11 +49,32 @@ pub fn report(system: &System, report: &Report, file: &str) -> Value {
             "stop": exploration.stop.to_string(),
             "bytes": exploration.bytes,
         },
+        "inputs": inputs(system),
         "assumptions": report.assumptions,
         "requirements": answers(&report.answers),
         "checks": answers(&report.checks),
+        "notes": report.remarks.iter().map(|r| remark(system, r)).collect::<Vec<_>>(),
         "verdict": report.verdict().word(),
     })
+}
+
+/// The free inputs, each with the number of values that were tried.
+fn inputs(system: &System) -> Vec<Value> {
+    let one = |input: VarId| {
+        let size = u64::try_from(system.domain(input).size()).unwrap_or(u64::MAX);
+        json!({ "name": system.program.variable(input).name, "values": size })
+    };
+    system.free_inputs().map(one).collect()
+}
+
+fn remark(system: &System, remark: &Remark) -> Value {
+    match *remark {
+        Remark::NeverChanges(output, pattern) => {
+            let output = system.program.variable(output);
+            json!({ "kind": "never-changes", "variable": output.name, "value": value(output.ty, pattern) })
+        }
+        Remark::NeverExecuted(line) => json!({ "kind": "never-executed", "line": line + 1 }),
+    }
 }
 
 fn view(view: View) -> &'static str {
@@ -97,27 +118,43 @@ fn trace(system: &System, witness: &Witness) -> Value {
     document
 }
 
+/// A truth value, or a number; times count milliseconds.
+fn value(ty: Type, pattern: u64) -> Value {
+    let number = ty.number(pattern);
+    match (u64::try_from(number), i64::try_from(number)) {
+        _ if ty.is_bool() => Value::Bool(pattern == 1),
+        (Ok(number), _) => number.into(),
+        (_, number) => number.unwrap_or(i64::MIN).into(),
+    }
+}
+
 /// `loop_start` is the number of the scan whose end the last scan repeats.
 fn scans(system: &System, trace: &ScanTrace) -> Value {
     let one = |(position, scan): (usize, &Scan)| {
         let name = |id: VarId| system.program.variable(id).name.clone();
+        let value = |id: VarId, pattern: u64| value(system.program.variable(id).ty, pattern);
         let values = |role| -> Map<String, Value> {
-            let end = scan.end.iter().flat_map(|end| {
-                system.program.with_role(role).map(|id| (name(id), Value::Bool(end.memory[id.0] == 1)))
-            });
+            let end = scan
+                .end
+                .iter()
+                .flat_map(|end| system.program.with_role(role).map(|id| (name(id), value(id, end.memory[id.0]))));
             end.collect()
         };
         let inputs: Map<String, Value> =
-            scan.inputs.iter().map(|&(id, value)| (name(id), Value::Bool(value == 1))).collect();
+            scan.inputs.iter().map(|&(id, pattern)| (name(id), value(id, pattern))).collect();
         let moves = scan.moves.iter().map(|m| &system.plant.components[m.component].transitions[m.transition].name);
-        json!({
+        let mut document = json!({
             "scan": position + 1,
             "plant": moves.collect::<Vec<_>>(),
             "inputs": inputs,
             "memory": values(Role::Memory),
             "outputs": values(Role::Output),
             "ends": scan.end.is_some(),
-        })
+        });
+        if let Some((line, hazard)) = scan.hazard {
+            document["hazard"] = json!({ "kind": hazard.to_string(), "line": line + 1 });
+        }
+        document
     };
     json!({
         "kind": "scans",

@@ -34,20 +34,39 @@ fn place(system: &System, source: &Source, role: PlaceRole) -> Note {
     let component = |index: usize| ("component", system.plant.components[index].name.clone());
     let word = match role {
         PlaceRole::Bit { .. } => "variable",
-        PlaceRole::Result(_) => "result",
+        PlaceRole::Result { .. } => "result",
+        PlaceRole::Register { .. } => "register",
         PlaceRole::Line(_) => "line",
+        PlaceRole::Within(..) => "within-line",
+        PlaceRole::Hazard(..) => "hazard",
         PlaceRole::Idle => "idle",
         PlaceRole::Copy(_) => "copy",
+        PlaceRole::Copying(..) => "copying",
         PlaceRole::Blocking(_) => "blocking",
         PlaceRole::Plant(_) => "plant",
     };
     let mut note = note(role.part(), word);
     match role {
-        PlaceRole::Bit { variable: id, value } => note.extend([variable(id), self::value(value)]),
-        PlaceRole::Result(value) => note.push(self::value(value)),
-        PlaceRole::Line(line) => note.extend(self::line(system, source, line)),
+        PlaceRole::Bit { variable: id, bit, value } => {
+            note.push(variable(id));
+            // A `BOOL` is all of its bit.
+            note.extend((!system.program.variable(id).ty.is_bool()).then(|| self::bit(bit)));
+            note.push(self::value(value));
+        }
+        PlaceRole::Result { bit, value } => {
+            note.extend((system.result_width() > 1).then(|| self::bit(bit)));
+            note.push(self::value(value));
+        }
+        PlaceRole::Register { register, bit, value } => {
+            note.extend([("register", register.to_string()), self::bit(bit), self::value(value)]);
+        }
+        PlaceRole::Line(line) | PlaceRole::Within(line, _) => note.extend(self::line(system, source, line)),
+        PlaceRole::Hazard(line, hazard) => {
+            note.push(("hazard", hazard.to_string()));
+            note.extend(self::line(system, source, line));
+        }
         PlaceRole::Idle => {}
-        PlaceRole::Copy(id) => note.push(variable(id)),
+        PlaceRole::Copy(id) | PlaceRole::Copying(id, _) => note.push(variable(id)),
         PlaceRole::Blocking(index) | PlaceRole::Plant(index) => note.push(component(index)),
     }
     note
@@ -64,8 +83,11 @@ fn transition(system: &System, source: &Source, role: TransitionRole) -> Note {
     let mut note = note(role.part(), word);
     match role {
         TransitionRole::Line(line) => note.extend(self::line(system, source, line)),
-        TransitionRole::Copy { variable, value } => {
-            note.extend([("variable", system.program.variable(variable).name.clone()), self::value(value)]);
+        TransitionRole::Copy { variable, bit, value } => {
+            let variable = system.program.variable(variable);
+            note.push(("variable", variable.name.clone()));
+            note.extend((!variable.ty.is_bool()).then(|| self::bit(bit)));
+            note.push(self::value(value));
         }
         TransitionRole::Plant { component, .. } => {
             note.push(("component", system.plant.components[component].name.clone()));
@@ -73,6 +95,10 @@ fn transition(system: &System, source: &Source, role: TransitionRole) -> Note {
         TransitionRole::Block | TransitionRole::Unblock => {}
     }
     note
+}
+
+fn bit(bit: u32) -> (&'static str, String) {
+    ("bit", bit.to_string())
 }
 
 fn value(value: bool) -> (&'static str, String) {

@@ -40,6 +40,8 @@ pub enum Stop {
     States(u64),
     /// The limit of memory was reached.
     Bytes(u64),
+    /// The space is too large for any search, for this reason.
+    Refused(String),
     /// Whoever watched the search stopped it, for this reason.
     Watcher(String),
 }
@@ -50,7 +52,7 @@ impl fmt::Display for Stop {
             Self::Complete => write!(f, "every state was explored"),
             Self::States(limit) => write!(f, "the limit of {limit} states was reached"),
             Self::Bytes(limit) => write!(f, "the limit of {} MiB was reached", limit >> 20),
-            Self::Watcher(reason) => write!(f, "{reason}"),
+            Self::Refused(reason) | Self::Watcher(reason) => write!(f, "{reason}"),
         }
     }
 }

@@ -24,7 +24,8 @@ pub struct Graph {
     pub(super) parents: Vec<u32>,
     /// First state of each breadth-first level.
     pub(super) levels: Vec<u32>,
-    /// States with a step that leads nowhere, the first of each row; `None` stands for the initial step.
+    /// States with a step that leads nowhere: of each row its first state, once for each failure; `None` stands for the
+    /// initial step.
     pub(super) failures: Vec<(Option<u32>, Failure)>,
     pub(super) stop: Stop,
     pub(super) members: OnceLock<Rows>,

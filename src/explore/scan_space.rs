@@ -1,46 +1,34 @@
 //! The scan view: a state is what there is at the end of a scan, a step is one scan.
 //!
-//! A state is packed as the marking of each plant component and one bit for each declared variable. Between two scans the
-//! plant makes any number of moves and free inputs take any value; then the program runs, computed by the interpreter. What
-//! lies between is not stored. Leaving out the current result and the buffers is sound: the static rules see to it that
-//! neither is read in a scan before it is written.
+//! A state is packed as the marking of each plant component and the bits of each declared variable. Between two scans the
+//! plant makes any number of moves and free inputs take any value of their domains; then the program runs, computed by the
+//! interpreter. What lies between is not stored. Leaving out the current result and the buffers is sound: the static rules
+//! see to it that neither is read in a scan before it is written.
+//!
+//! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
 
+use super::free_inputs::FreeInputs;
+use super::graph::Graph;
+use super::layout::{Field, Layout};
 use super::space::{Failure, StateSpace, Step};
-use crate::interpret::{Fault, Machine};
+use crate::flat::Tolerated;
+use crate::interpret::Machine;
 use crate::semantics::VarId;
 use crate::translate::System;
 
 /// The scan states of a system.
 pub struct ScanSpace<'s> {
     system: &'s System,
+    tolerated: Tolerated,
     /// Where each plant component's marking stands in a state.
     components: Vec<Field>,
     /// Where each declared variable stands in a state.
     variables: Vec<(VarId, Field)>,
-    free_inputs: Vec<VarId>,
+    free_inputs: FreeInputs,
     words: usize,
     /// The bits that make a difference to later scans: the plant's markings, what the program carries over, and the outputs
     /// the plant looks at.
     relevant: Vec<u64>,
-}
-
-/// Some bits within one word of a state.
-#[derive(Clone, Copy, Debug)]
-struct Field {
-    word: usize,
-    shift: u32,
-    mask: u64,
-}
-
-impl Field {
-    fn get(self, state: &[u64]) -> usize {
-        (state[self.word] >> self.shift & self.mask) as usize
-    }
-
-    /// Of `value`, the bits the field has.
-    fn set(self, state: &mut [u64], value: usize) {
-        state[self.word] = state[self.word] & !(self.mask << self.shift) | (value as u64 & self.mask) << self.shift;
-    }
 }
 
 /// A scan state in plain form.
@@ -59,37 +47,34 @@ pub struct ScanRun<'a> {
     pub plant: &'a [usize],
     /// The machine at its end, or somewhere in the loop it never leaves.
     pub machine: &'a Machine<'a>,
-    /// The packed state at its end, or why there is none.
-    pub end: Result<&'a [u64], Fault>,
+    /// The packed state at its end, or why it leads nowhere.
+    pub end: Result<&'a [u64], Failure>,
 }
 
 impl<'s> ScanSpace<'s> {
-    /// The space of a system.
+    /// The space of a system, every hazard being an error.
     #[must_use]
     pub fn new(system: &'s System) -> Self {
-        let mut used: Vec<u32> = vec![0];
-        let mut field = |bits: u32| {
-            if used.last().is_some_and(|&used| used + bits > 64) {
-                used.push(0);
-            }
-            let word = used.len() - 1;
-            let shift = used[word];
-            used[word] += bits;
-            // A field of no bits is never shifted by 64.
-            Field { word, shift: shift.min(63), mask: (1 << bits) - 1 }
-        };
+        Self::tolerating(system, Tolerated::default())
+    }
+
+    /// The space of a system in which some hazards are no errors.
+    #[must_use]
+    pub fn tolerating(system: &'s System, tolerated: Tolerated) -> Self {
+        let mut layout = Layout::new();
         let width = |markings: usize| usize::BITS - (markings - 1).leading_zeros();
-        let components: Vec<Field> = system.plant.components.iter().map(|c| field(width(c.markings.len()))).collect();
-        let variables: Vec<(VarId, Field)> = system.program.declared().map(|variable| (variable, field(1))).collect();
-        let words = used.len();
+        let markings = system.plant.components.iter().map(|component| component.markings.len());
+        let components: Vec<Field> = markings.map(|markings| layout.field(width(markings))).collect();
+        let declared = system.program.declared();
+        let variables: Vec<(VarId, Field)> =
+            declared.map(|variable| (variable, layout.field(system.program.variable(variable).bits))).collect();
         let mut carried = system.program.carried();
         carried.extend(system.plant.tested().map(|output| output.0));
-        let mut relevant = vec![0; words];
-        components.iter().for_each(|field| field.set(&mut relevant, usize::MAX));
-        for (_, field) in variables.iter().filter(|(variable, _)| carried.contains(variable.0)) {
-            field.set(&mut relevant, 1);
-        }
-        Self { system, components, variables, free_inputs: system.free_inputs().collect(), words, relevant }
+        let mut relevant = vec![0; layout.words()];
+        let kept = variables.iter().filter(|(variable, _)| carried.contains(variable.0)).map(|(_, field)| field);
+        components.iter().chain(kept).for_each(|field| field.set(&mut relevant, u64::MAX));
+        let free_inputs = FreeInputs::new(system);
+        Self { system, tolerated, components, variables, free_inputs, words: layout.words(), relevant }
     }
 
     /// The system.
@@ -103,16 +88,22 @@ impl<'s> ScanSpace<'s> {
     pub fn unpack(&self, state: &[u64]) -> ScanState {
         let mut memory = vec![0; self.system.program.variables.len()];
         for &(variable, field) in &self.variables {
-            memory[variable.0] = field.get(state) as u64;
+            memory[variable.0] = field.get(state);
         }
-        ScanState { plant: self.components.iter().map(|field| field.get(state)).collect(), memory }
+        ScanState { plant: self.components.iter().map(|field| field.get(state) as usize).collect(), memory }
     }
 
     /// The value of a declared variable in a state.
     #[must_use]
     pub fn value(&self, state: &[u64], variable: VarId) -> u64 {
         // Declared variables come first in a program, in this order.
-        self.variables[variable.0].1.get(state) as u64
+        self.variables[variable.0].1.get(state)
+    }
+
+    /// A state of the graph of this space in plain form; `None` is power-on.
+    #[must_use]
+    pub(super) fn state(&self, id: Option<u32>, graph: &Graph) -> ScanState {
+        id.map_or_else(|| self.power_on(), |id| self.unpack(graph.state(id)))
     }
 
     /// The system at power-on, before the first scan. It is no scan state.
@@ -126,8 +117,8 @@ impl<'s> ScanSpace<'s> {
 
     fn pack(&self, plant: &[usize], machine: &Machine<'_>, state: &mut [u64]) {
         state.fill(0);
-        self.components.iter().zip(plant).for_each(|(field, &marking)| field.set(state, marking));
-        self.variables.iter().for_each(|&(variable, field)| field.set(state, machine.value(variable) as usize));
+        self.components.iter().zip(plant).for_each(|(field, &marking)| field.set(state, marking as u64));
+        self.variables.iter().for_each(|&(variable, field)| field.set(state, machine.value(variable)));
     }
 
     /// For each component, the markings it can be in when the next scan begins.
@@ -141,10 +132,29 @@ impl<'s> ScanSpace<'s> {
             .collect()
     }
 
+    /// Runs a scan, whose inputs have been set.
+    fn scan(&self, machine: &mut Machine<'_>) -> Result<(), Failure> {
+        let ended = machine.scan();
+        match self.tolerated.first_error(machine.hazards()) {
+            // It comes before whatever keeps the scan from ending.
+            Some((line, hazard)) => Err(Failure::Hazard(line, hazard)),
+            None => ended.map_err(Failure::Scan),
+        }
+    }
+
     /// Calls `visit` for the scan from a state under each choice of plant markings and free inputs.
     pub fn scans(&self, from: &ScanState, visit: &mut dyn FnMut(ScanRun<'_>)) {
-        let choices = self.plant_choices(from);
         let mut state = vec![0; self.words];
+        self.beginnings(from, &mut |machine, plant| {
+            let result = self.scan(machine);
+            self.pack(plant, machine, &mut state);
+            visit(ScanRun { plant, machine, end: result.map(|()| state.as_slice()) });
+        });
+    }
+
+    /// Calls `visit` for the machine before each scan from a state, its inputs set, with the plant's markings.
+    pub(super) fn beginnings<'m>(&'m self, from: &ScanState, visit: &mut dyn FnMut(&mut Machine<'m>, &[usize])) {
+        let choices = self.plant_choices(from);
         let mut machine = Machine::new(&self.system.program);
         let mut odometer = vec![0; choices.len()];
         let mut plant = vec![0; choices.len()];
@@ -152,18 +162,14 @@ impl<'s> ScanSpace<'s> {
             for (slot, (choice, &digit)) in plant.iter_mut().zip(choices.iter().zip(&odometer)) {
                 *slot = choice[digit];
             }
-            for free in 0..1_u64 << self.free_inputs.len() {
+            self.free_inputs.for_each(&mut machine, &mut |machine, setting| {
                 machine.restore(&from.memory);
                 for (component, &marking) in self.system.plant.components.iter().zip(&plant) {
                     component.markings[marking].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
                 }
-                for (bit, &input) in self.free_inputs.iter().rev().enumerate() {
-                    machine.set(input, free >> bit & 1);
-                }
-                let result = machine.scan();
-                self.pack(&plant, &machine, &mut state);
-                visit(ScanRun { plant: &plant, machine: &machine, end: result.map(|()| state.as_slice()) });
-            }
+                setting.copy_to(machine);
+                visit(machine, &plant);
+            });
             // The next combination of plant markings, the last component fastest.
             let Some(turn) = odometer.iter().zip(&choices).rposition(|(&digit, choice)| digit + 1 < choice.len())
             else {
@@ -194,14 +200,18 @@ impl StateSpace for ScanSpace<'_> {
 
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {
         let from = state.map_or_else(|| self.power_on(), |state| self.unpack(state));
-        let free = 1_u64.checked_shl(self.free_inputs.len() as u32).unwrap_or(u64::MAX);
+        let free = u64::try_from(self.free_inputs.combinations()).unwrap_or(u64::MAX);
         self.plant_choices(&from).iter().fold(free, |product, choice| product.saturating_mul(choice.len() as u64))
+    }
+
+    fn refusal(&self) -> Option<String> {
+        self.free_inputs.refusal()
     }
 }
 
-fn step(end: Result<&[u64], Fault>) -> Step<'_> {
+fn step(end: Result<&[u64], Failure>) -> Step<'_> {
     match end {
         Ok(state) => Step::To(state),
-        Err(fault) => Step::Fails(Failure::Scan(fault)),
+        Err(failure) => Step::Fails(failure),
     }
 }

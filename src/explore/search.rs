@@ -55,6 +55,9 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&mut self, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Stop {
+        if let Some(reason) = self.space.refusal() {
+            return Stop::Refused(reason);
+        }
         if self.space.fan_out(None) > self.budget.states {
             return Stop::States(self.budget.states);
         }
@@ -137,7 +140,7 @@ impl Search<'_> {
             graph.targets.push(target);
         }
         graph.starts.push(graph.targets.len() as u64);
-        graph.failures.extend(expansion.failures.first().map(|&failure| (Some(id), failure)));
+        graph.failures.extend(expansion.failures.iter().map(|&failure| (Some(id), failure)));
     }
 
     fn bytes(&self) -> u64 {
@@ -163,7 +166,7 @@ impl Search<'_> {
     }
 }
 
-/// The steps of one state.
+/// The steps of one state, and the ways in which steps of it fail.
 #[derive(Default)]
 struct Expansion {
     words: Vec<u64>,
@@ -175,6 +178,7 @@ impl Expansion {
         let mut expansion = Self::default();
         visit(&mut |step| match step {
             Step::To(state) => expansion.words.extend_from_slice(state),
+            Step::Fails(failure) if expansion.failures.contains(&failure) => {}
             Step::Fails(failure) => expansion.failures.push(failure),
         });
         expansion

@@ -1,5 +1,6 @@
 //! The seam between what has states and what explores them.
 
+use crate::flat::Hazard;
 use crate::interpret::Fault;
 use crate::net::PlaceId;
 
@@ -28,6 +29,11 @@ pub trait StateSpace: Sync {
         let _ = state;
         8
     }
+
+    /// Why the space is too large for any search, and what its owner can do about it.
+    fn refusal(&self) -> Option<String> {
+        None
+    }
 }
 
 /// One step.
@@ -44,6 +50,8 @@ pub enum Step<'a> {
 pub enum Failure {
     /// A scan does not end.
     Scan(Fault),
+    /// A scan meets a hazard that is an error, in this line (from 0).
+    Hazard(usize, Hazard),
     /// A firing puts a second token on a place.
     NotSafe(PlaceId),
 }

@@ -167,6 +167,18 @@ impl Instruction {
         }
     }
 
+    /// The type it gives CR; `None` if CR stays as it is.
+    #[must_use]
+    pub fn gives(&self) -> Option<Type> {
+        match *self {
+            Self::Combine { function, .. } if function.compares() => Some(Type::BOOL),
+            Self::Load { ty, .. } | Self::Complement(ty) | Self::Combine { ty, .. } | Self::Convert { to: ty, .. } => {
+                Some(ty)
+            }
+            _ => None,
+        }
+    }
+
     /// The hazards it can meet.
     #[must_use]
     pub fn hazards(&self) -> &'static [Hazard] {

@@ -4,13 +4,21 @@
 //! numbers, a return is a jump to the end. Both the interpreter and the net are made from it.
 
 mod carried;
+mod compared;
 mod instruction;
 mod lower;
 mod narrow;
 mod print;
+#[cfg(test)]
+mod tests;
+mod tolerated;
+mod value;
 
+pub use compared::Cuts;
 pub use lower::{DEFAULT_SCAN_TIME, flatten, flatten_with};
 pub use print::literal;
+pub use tolerated::Tolerated;
+pub use value::value_text;
 
 pub use instruction::{Condition, Element, Function, Hazard, Instruction, Operand, Target};
 

@@ -105,7 +105,7 @@ impl Binder<'_> {
     fn number(&mut self, formula: &Formula) -> Term {
         let mut two = |a: &Formula, b: &Formula| (Box::new(self.number(a)), Box::new(self.number(b)));
         match &formula.expression {
-            Expression::Number(number) => Term::Number(i128::from(*number)),
+            Expression::Number(number) => Term::Number(*number),
             Expression::Sum(a, b) => {
                 let (a, b) = two(a, b);
                 Term::Sum(a, b)
@@ -118,6 +118,10 @@ impl Binder<'_> {
                 let (a, b) = two(a, b);
                 Term::Product(a, b)
             }
+            Expression::Name(name) => match self.find(name, formula.span) {
+                Ok(variable) => self.value(variable),
+                Err(unknown) => Term::Truth(Box::new(unknown)),
+            },
             _ => {
                 let truth = self.truth(formula);
                 if !truth.is_state_formula() {
@@ -131,24 +135,54 @@ impl Binder<'_> {
         }
     }
 
+    /// A variable that must be a truth value.
     fn variable(&mut self, name: &str, span: Span) -> Bound {
-        let system = self.system;
-        let program = &system.program;
-        let Some(variable) = program.find(name) else {
+        let variable = match self.find(name, span) {
+            Ok(variable) => variable,
+            Err(unknown) => return unknown,
+        };
+        let found = self.system.program.variable(variable);
+        if found.ty.is_bool() {
+            return self.bit(variable);
+        }
+        let message = format!("`{name}` is of type `{}`, where something true or false is needed", found.ty);
+        let help = format!("compare it with something, like `{} != 0`", found.name);
+        self.error(Diagnostic::new(Code::RequirementTypes, span, message).help(help))
+    }
+
+    /// The variable of a name, or what to go on with if there is none.
+    fn find(&mut self, name: &str, span: Span) -> Result<VarId, Bound> {
+        let program = &self.system.program;
+        program.find(name).ok_or_else(|| {
             let message = format!("the program `{}` has no variable `{name}`", program.name);
             let names = program.declared().map(|id| program.variable(id).name.as_str());
-            return self.unknown(message, span, name, names);
-        };
+            self.unknown(message, span, name, names)
+        })
+    }
+
+    /// Whether a `BOOL` is TRUE.
+    fn bit(&self, variable: VarId) -> Bound {
+        debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
         match self.view {
             View::Scan => Bound::Variable(variable),
-            View::Transition => Bound::Marked(self.bit(variable)),
+            View::Transition => Bound::Marked(self.system.place(PlaceRole::Bit { variable, bit: 0, value: true })),
         }
     }
 
-    /// The place that is marked while a variable is TRUE.
-    fn bit(&self, variable: VarId) -> crate::net::PlaceId {
-        debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
-        self.system.place(PlaceRole::Bit { variable, value: true })
+    /// The number a variable holds; a `BOOL` counts as 0 or 1.
+    fn value(&self, variable: VarId) -> Term {
+        let ty = self.system.program.variable(variable).ty;
+        if ty.is_bool() {
+            return Term::Truth(Box::new(self.bit(variable)));
+        }
+        if self.view == View::Scan {
+            return Term::Variable(variable, ty);
+        }
+        // In two's complement, the highest bit of the type counts negatively.
+        let weight = |bit: u32| if ty.is_signed() && bit + 1 == ty.width { -(1_i128 << bit) } else { 1 << bit };
+        let bits = (0..).zip(self.system.bits(variable));
+        let places = bits.map(|(bit, [_, place])| (place, weight(bit))).collect();
+        Term::Bits { variable, places }
     }
 
     fn at_line(&mut self, line: usize, span: Span) -> Bound {

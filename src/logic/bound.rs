@@ -2,14 +2,14 @@
 
 use super::formula::{Comparison, Quantifier};
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::VarId;
+use crate::semantics::{Type, VarId};
 
 /// A formula over the states of one view. `F` and `G` are written as untils: `F g` = `TRUE U g`, `G f` = `f W FALSE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// A constant.
     Truth(bool),
-    /// The variable is TRUE.
+    /// The variable, a `BOOL`, is TRUE.
     Variable(VarId),
     /// The place is marked.
     Marked(PlaceId),
@@ -47,6 +47,15 @@ pub enum Bound {
 pub enum Term {
     /// A constant.
     Number(i128),
+    /// The number a variable holds.
+    Variable(VarId, Type),
+    /// The same in the transition view, where each bit of the variable is a place.
+    Bits {
+        /// The variable.
+        variable: VarId,
+        /// The places that are marked while a bit is 1, each with what the bit counts.
+        places: Vec<(PlaceId, i128)>,
+    },
     /// 1 if the formula, which is not temporal, holds; else 0.
     Truth(Box<Bound>),
     /// Sum.
@@ -59,8 +68,8 @@ pub enum Term {
 
 /// What a state says of the atoms.
 pub trait Valuation {
-    /// Whether a variable is TRUE.
-    fn variable(&self, variable: VarId) -> bool;
+    /// The value of a variable, as a pattern of its type.
+    fn value(&self, variable: VarId) -> u64;
     /// Whether a place is marked.
     fn is_marked(&self, place: PlaceId) -> bool;
     /// Whether a transition is enabled.
@@ -85,7 +94,7 @@ impl Bound {
     pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
         Some(match self {
             Self::Truth(value) => *value,
-            Self::Variable(variable) => state.variable(*variable),
+            Self::Variable(variable) => state.value(*variable) == 1,
             Self::Marked(place) => state.is_marked(*place),
             Self::Enabled(transition) => state.is_enabled(*transition),
             Self::Compare(comparison, left, right) => comparison.holds(left.value_in(state)?, right.value_in(state)?),
@@ -103,6 +112,10 @@ impl Term {
     fn value_in(&self, state: &impl Valuation) -> Option<i128> {
         Some(match self {
             Self::Number(number) => *number,
+            Self::Variable(variable, ty) => ty.number(state.value(*variable)),
+            Self::Bits { places, .. } => {
+                places.iter().filter(|(place, _)| state.is_marked(*place)).map(|(_, weight)| weight).sum()
+            }
             Self::Truth(f) => i128::from(f.holds_in(state)?),
             Self::Sum(a, b) => a.value_in(state)? + b.value_in(state)?,
             Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
@@ -115,6 +128,8 @@ impl Term {
     pub fn magnitude(&self) -> Option<u128> {
         let sum = match self {
             Self::Number(number) => Some(number.unsigned_abs()),
+            Self::Variable(_, ty) => Some(ty.least().unsigned_abs().max(ty.greatest().unsigned_abs())),
+            Self::Bits { places, .. } => Some(places.iter().map(|(_, weight)| weight.unsigned_abs()).sum()),
             Self::Truth(_) => Some(1),
             Self::Sum(a, b) | Self::Difference(a, b) => a.magnitude()?.checked_add(b.magnitude()?),
             Self::Product(a, b) => a.magnitude()?.checked_mul(b.magnitude()?),

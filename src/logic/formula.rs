@@ -16,8 +16,8 @@ pub struct Formula {
 pub enum Expression {
     /// `TRUE`, `FALSE`
     Truth(bool),
-    /// A number.
-    Number(i64),
+    /// A number, of at most 64 bits.
+    Number(i128),
     /// A variable.
     Name(String),
     /// `at line 12`, the line counted from 1 as `petril flat` prints it.

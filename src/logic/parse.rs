@@ -1,6 +1,5 @@
-//! Requirement files and single formulas: text to [`Formula`].
+//! Single formulas and requirement files: text to [`Formula`].
 
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use pest::Parser;
@@ -9,10 +8,15 @@ use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
 
+use super::domain::DomainText;
 use super::formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+use super::literal;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{Source, Span};
-use crate::syntax::ast::key;
+
+mod file;
+
+pub use file::{RequirementFile, parse_domain, parse_requirements};
 
 #[derive(Parser)]
 #[grammar = "../grammar/requirement.pest"]
@@ -53,64 +57,6 @@ pub fn parse_formula(name: &str, source: &Source) -> Result<Requirement, Diagnos
     };
     let (span, text) = (span(&pair), one_line(pair.as_str()));
     Ok(Requirement { name: name.to_owned(), sentence: None, formula: checked_formula(pair)?, text, span })
-}
-
-/// Reads a requirement file: the requirements that can be read, and every error.
-#[must_use]
-pub fn parse_requirements(source: &Source) -> (Vec<Requirement>, Vec<Diagnostic>) {
-    let text = source.text();
-    let mut requirements: Vec<Requirement> = Vec::new();
-    let mut diagnostics = Vec::new();
-    let mut names: BTreeMap<String, Span> = BTreeMap::new();
-    let pairs = match RequirementParser::parse(Rule::file, text) {
-        Ok(pairs) => pairs.flat_map(Pair::into_inner),
-        Err(error) => return (requirements, vec![diagnostic(&error, text, 0)]),
-    };
-    for pair in pairs {
-        match pair.as_rule() {
-            Rule::requirement => match requirement(pair) {
-                Ok(requirement) => {
-                    let first = *names.entry(key(&requirement.name)).or_insert(requirement.span);
-                    if first != requirement.span {
-                        let message = format!("there are two requirements named `{}`", requirement.name);
-                        diagnostics.push(
-                            Diagnostic::new(Code::RequirementNameTwice, requirement.span, message)
-                                .also(first, "the first is here")
-                                .help("give each a name of its own"),
-                        );
-                    }
-                    requirements.push(requirement);
-                }
-                Err(error) => diagnostics.push(error),
-            },
-            Rule::bad => diagnostics.push(explain(&pair)),
-            _ => {}
-        }
-    }
-    if requirements.is_empty() && diagnostics.is_empty() {
-        let message = "this file holds no requirement";
-        let help = "write one like `requirement name \"what it says\": AG (a -> b);`";
-        diagnostics.push(Diagnostic::new(Code::RequirementSyntax, Span::default(), message).help(help));
-    }
-    (requirements, diagnostics)
-}
-
-fn requirement(pair: Pair<'_, Rule>) -> Result<Requirement, Diagnostic> {
-    let fallback = span(&pair);
-    let (mut name, mut sentence, mut formula) = ((String::new(), fallback), None, None);
-    for piece in pair.into_inner() {
-        match piece.as_rule() {
-            Rule::identifier => name = (piece.as_str().to_owned(), span(&piece)),
-            Rule::sentence => sentence = Some(piece.as_str().trim_matches('"').to_owned()),
-            Rule::formula => formula = Some((one_line(piece.as_str()), checked_formula(piece)?)),
-            _ => {}
-        }
-    }
-    let (name, span) = name;
-    match formula {
-        Some((text, formula)) => Ok(Requirement { name, sentence, formula, text, span }),
-        None => Err(Diagnostic::new(Code::RequirementSyntax, span, "this requirement has no formula")),
-    }
 }
 
 /// The formula of a pair of the rule `formula`, unless it is too large.
@@ -189,7 +135,8 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     };
     let expression = match pair.as_rule() {
         Rule::group => return pair.into_inner().next().map_or_else(|| Err(too_large()), |p| formula(p.into_inner())),
-        Rule::number => Expression::Number(text.parse().map_err(|_| too_large())?),
+        Rule::number if is_truth(text) => Expression::Truth(constant(&pair)? == 1),
+        Rule::number => Expression::Number(constant(&pair)?),
         Rule::truth => Expression::Truth(text.eq_ignore_ascii_case("TRUE")),
         Rule::until => return until(pair),
         Rule::position => match pair.into_inner().last() {
@@ -203,9 +150,31 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
             let quoted = pair.into_inner().next().map(|p| p.as_str().trim_matches('"').to_owned()).unwrap_or_default();
             if rule == Rule::marked { Expression::Marked(quoted) } else { Expression::Enabled(quoted) }
         }
-        _ => Expression::Name(text.to_owned()),
+        _ => Expression::Name(name_of(&pair)),
     };
     Ok(Formula { expression, span })
+}
+
+/// The name of a variable, spelt as flat code does: `a[1,2]`.
+fn name_of(pair: &Pair<'_, Rule>) -> String {
+    pair.as_str().split_whitespace().collect()
+}
+
+/// The number a literal stands for.
+fn constant(pair: &Pair<'_, Rule>) -> Result<i128, Diagnostic> {
+    let text = pair.as_str();
+    if pair.as_rule() == Rule::truth {
+        return Ok(i128::from(text.eq_ignore_ascii_case("TRUE")));
+    }
+    literal::number(text).map_err(|message| {
+        let help = "numbers have up to 64 bits, like `-5`, `16#FF`, `INT#-5` or `T#1s500ms`";
+        Diagnostic::new(Code::RequirementSyntax, span(pair), message).help(help)
+    })
+}
+
+/// Whether a literal is one of type `BOOL`, like `BOOL#1`.
+fn is_truth(literal: &str) -> bool {
+    literal.split_once('#').is_some_and(|(ty, _)| ty.eq_ignore_ascii_case("BOOL"))
 }
 
 fn until(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
@@ -250,19 +219,6 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Reads a piece that is no requirement as one, to say why it is none.
-fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
-    let (text, start) = (pair.as_str(), pair.as_span().start());
-    let help = "write it like `requirement name \"what it says\": AG (a -> b);`";
-    match RequirementParser::parse(Rule::lone_requirement, text) {
-        Err(error) => {
-            let diagnostic = diagnostic(&error, text, start);
-            if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
-        }
-        Ok(_) => Diagnostic::new(Code::RequirementSyntax, span(pair), "this cannot stand here").help(help),
-    }
-}
-
 fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
     let diagnostic = diagnostic::expected(error, (text, start), Code::RequirementSyntax, "the end", name);
     let at = diagnostic.span().start - start;
@@ -278,6 +234,8 @@ fn name(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI => "the end",
         Rule::keyword => "`requirement`",
+        Rule::domain_word => "`domain`",
+        Rule::range | Rule::based => "a number",
         Rule::identifier => "a name",
         Rule::sentence | Rule::quoted => "a text in quotes",
         Rule::colon => "`:`",

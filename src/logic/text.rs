@@ -37,7 +37,9 @@ impl Bound {
             Self::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
             Self::Variable(variable) => system.program.variable(*variable).name.clone(),
             Self::Marked(place) => match system.places[place.index()] {
-                PlaceRole::Bit { variable, value: true } if system.program.variable(variable).role != Role::Buffer => {
+                PlaceRole::Bit { variable, bit: 0, value: true }
+                    if system.program.variable(variable).role != Role::Buffer =>
+                {
                     system.program.variable(variable).name.clone()
                 }
                 PlaceRole::Line(line) if line == system.program.end() => "at End".to_owned(),
@@ -91,6 +93,9 @@ impl Term {
         };
         match self {
             Self::Number(number) => number.to_string(),
+            Self::Variable(variable, _) | Self::Bits { variable, .. } => {
+                system.program.variable(*variable).name.clone()
+            }
             Self::Truth(f) => f.set(system, Strength::Prefix),
             Self::Sum(a, b) => two(a, "+", b, Strength::Sum),
             Self::Difference(a, b) => two(a, "-", b, Strength::Sum),

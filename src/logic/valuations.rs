@@ -9,8 +9,8 @@ use crate::semantics::VarId;
 pub struct ScanValuation<'a>(pub &'a ScanSpace<'a>, pub &'a [u64]);
 
 impl Valuation for ScanValuation<'_> {
-    fn variable(&self, variable: VarId) -> bool {
-        self.0.value(self.1, variable) == 1
+    fn value(&self, variable: VarId) -> u64 {
+        self.0.value(self.1, variable)
     }
 
     fn is_marked(&self, _: PlaceId) -> bool {
@@ -26,8 +26,8 @@ impl Valuation for ScanValuation<'_> {
 pub struct MarkingValuation<'a>(pub &'a MarkingSpace<'a>, pub &'a [u64]);
 
 impl Valuation for MarkingValuation<'_> {
-    fn variable(&self, _: VarId) -> bool {
-        false
+    fn value(&self, _: VarId) -> u64 {
+        0
     }
 
     fn is_marked(&self, place: PlaceId) -> bool {

@@ -33,6 +33,12 @@ impl Builder {
         PlaceId::at(self.net.places.len() - 1)
     }
 
+    /// The name of a place that has been added.
+    #[must_use]
+    pub fn place_name(&self, place: PlaceId) -> &str {
+        &self.net.place(place).name
+    }
+
     /// Adds a transition. A place it both takes from and puts to becomes a place it reads; a place it reads and also
     /// takes from is only taken from, since that asks for the same token.
     pub fn transition(&mut self, name: impl Into<String>, arcs: Arcs) -> TransitionId {

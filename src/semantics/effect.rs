@@ -32,7 +32,10 @@ pub fn effect(instruction: &Instruction, context: &Context<'_>) -> (bool, Leaves
             (*condition != Condition::Always, Leaves::Same)
         }
         Some(Operation::Call { condition, .. }) => (*condition != Condition::Always, Leaves::Nothing),
-        Some(Operation::Function { arguments, .. }) => (!arguments.enclosed, Leaves::Value),
+        // Of a name nobody knows it is enough to say so.
+        Some(Operation::Function { name, arguments }) => {
+            (!arguments.enclosed && context.project.is_function(&name.text), Leaves::Value)
+        }
         Some(Operation::Broken) => (false, Leaves::Value),
         None => (false, Leaves::Same),
     }

@@ -7,6 +7,7 @@ mod constant;
 mod control_flow;
 mod declare;
 mod effect;
+mod expansion;
 mod function;
 mod inference;
 mod interval;
@@ -39,7 +40,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use function::Function;
 pub use library::{CLOCK, RUNNING, text as library_text};
@@ -137,10 +138,32 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     diagnostics.sort_by_key(Diagnostic::span);
     diagnostics.dedup();
     if !clean || any_error(&diagnostics) {
+        // What is not used may be used where the errors are.
+        diagnostics.retain(|diagnostic| !is_about_use(diagnostic.code));
         return (None, diagnostics);
     }
     let globals = variables(&project.globals);
-    (Some(Program { pous, entry, globals, interval }), diagnostics)
+    let program = Program { pous, entry, globals, interval };
+    if let Some(what) = expansion::too_large(&program, &needed) {
+        let name = &project.pou(entry).name;
+        let message = format!("`{}` has {what} when its calls are written out", name.text);
+        let help = "every call is modelled by instructions of its own; check its parts one by one";
+        diagnostics.push(Diagnostic::new(Code::ProgramTooLarge, name.span, message).help(help));
+        return (None, diagnostics);
+    }
+    (Some(program), diagnostics)
+}
+
+/// Whether a code is about something that is written and not used.
+fn is_about_use(code: Code) -> bool {
+    matches!(
+        code,
+        Code::VariableNotUsed
+            | Code::VariableNotWritten
+            | Code::OutputNotWritten
+            | Code::ResultNotUsed
+            | Code::LabelNotUsed
+    )
 }
 
 /// No unit of the file has the name that was asked for.
@@ -163,9 +186,9 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
         }));
         return Some(id);
     }
-    let is_called =
-        |id: PouId| own().any(|(other, _)| other != id && project.calls(other).iter().any(|(callee, _)| *callee == id));
-    let (id, pou) = own().filter(|(id, _)| !is_called(*id)).last().or_else(|| own().last())?;
+    let calls = own().flat_map(|(id, _)| project.calls(id).into_iter().filter(move |(callee, _)| *callee != id));
+    let called: BTreeSet<PouId> = calls.map(|(callee, _)| callee).collect();
+    let (id, pou) = own().rfind(|(id, _)| !called.contains(id)).or_else(|| own().next_back())?;
     let message = format!("this file holds no program, so {} `{}` is checked by itself", pou.kind, pou.name.text);
     diagnostics.push(
         Diagnostic::new(Code::CheckedByItself, pou.name.span, message)
@@ -190,10 +213,10 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
 
 /// Units of the file that are not needed.
 fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
-    let others =
-        project.unit.pous.iter().enumerate().filter(|(i, pou)| {
-            !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
-        });
+    let needed: BTreeSet<PouId> = needed.iter().copied().collect();
+    let others = project.unit.pous.iter().enumerate().filter(move |(i, pou)| {
+        !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
+    });
     others.map(|(_, pou)| {
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
         Diagnostic::new(Code::PouNotChecked, pou.name.span, message)

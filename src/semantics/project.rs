@@ -74,6 +74,12 @@ impl<'a> Project<'a> {
         self.by_name.get(&crate::syntax::ast::key(name)).copied()
     }
 
+    /// Whether there is a function of this name, in the file or in the standard.
+    pub fn is_function(&self, name: &str) -> bool {
+        let own = self.find(name).is_some_and(|id| self.pou(id).kind == PouKind::Function);
+        own || super::typing::is_standard(name)
+    }
+
     pub fn pou(&self, id: PouId) -> &'a Pou {
         self.pous[id.0]
     }

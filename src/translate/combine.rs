@@ -1,26 +1,35 @@
-//! `AND x`, `OR x`, `XOR x` and their N forms: one transition for each pair of current result and operand.
+//! `AND x`, `OR x`, `XOR x` and their N forms: one transition for each pair of current result and operand, bit by bit.
 
-use super::weaver::{Subnet, VALUES};
-use crate::flat::{Function, Operand};
+use super::subnet::{Step, Subnet};
+use super::weaver::VALUES;
+use super::wire::{Wire, with};
+use crate::flat::Function;
+use crate::semantics::Type;
 
 /// The function's table: its value for (current result, operand) = 00, 01, 10, 11.
 fn table(function: Function) -> [bool; 4] {
     match function {
-        Function::And => [false, false, false, true],
         Function::Or => [false, true, true, true],
         Function::Xor => [false, true, true, false],
-        _ => [false; 4],
+        _ => [false, false, false, true],
     }
 }
 
-pub fn translate(subnet: &mut Subnet<'_>, function: Function, negated: bool, operand: Operand) {
-    let (result, table) = (subnet.result(), table(function));
-    for old in VALUES {
-        for (value, bit) in subnet.readings(operand) {
-            let new = table[2 * usize::from(old) + usize::from(value ^ negated)];
-            let read = bit.iter().map(|bit| (bit, value, value));
-            let changes: Vec<_> = std::iter::once((&result, old, new)).chain(read).collect();
-            subnet.step(subnet.next(), &changes);
+/// The bits of a wider type that a constant leaves as they are take no step.
+pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, wires: &[Wire]) {
+    let table = table(function);
+    let value = |old: bool, value: bool| table[2 * usize::from(old) + usize::from(value)];
+    let changes =
+        |wire: &Wire| ty.is_bool() || wire.known().is_none_or(|v| VALUES.iter().any(|&old| value(old, v) != old));
+    let mut steps: Vec<Step> = Vec::new();
+    for (result, wire) in subnet.result(ty.width).into_iter().zip(wires).filter(|(_, wire)| changes(wire)) {
+        let mut step = Step::new();
+        for old in VALUES {
+            for (read, given) in &wire.0 {
+                step.push(with((result, old, value(old, *read)), given));
+            }
         }
+        steps.push(step);
     }
+    subnet.chain(subnet.here(), subnet.next(), &steps);
 }

@@ -1,10 +1,11 @@
-//! `NOT`: the current result changes its value.
+//! `NOT`: every bit of the current result changes its value.
 
-use super::weaver::{Subnet, VALUES};
+use super::subnet::{Step, Subnet};
+use super::weaver::VALUES;
+use crate::semantics::Type;
 
-pub fn translate(subnet: &mut Subnet<'_>) {
-    let result = subnet.result();
-    for value in VALUES {
-        subnet.step(subnet.next(), &[(&result, value, !value)]);
-    }
+pub fn translate(subnet: &mut Subnet<'_>, ty: Type) {
+    let flip = |bit| VALUES.map(|value| vec![(bit, value, !value)]).into();
+    let steps: Vec<Step> = subnet.result(ty.width).into_iter().map(flip).collect();
+    subnet.chain(subnet.here(), subnet.next(), &steps);
 }

@@ -11,6 +11,8 @@ pub struct Domain {
     pub ty: Type,
     /// Disjoint ranges of numbers, ascending, both ends included, with a gap between neighbours.
     ranges: Vec<(i128, i128)>,
+    /// Whether the values stand for all of the type: the others can be told from them nowhere.
+    for_all: bool,
 }
 
 /// The domains of free inputs. An input that is not listed has every value of its type.
@@ -20,7 +22,7 @@ impl Domain {
     /// Every value of a type.
     #[must_use]
     pub fn all(ty: Type) -> Self {
-        Self { ty, ranges: vec![(ty.least(), ty.greatest())] }
+        Self { ty, ranges: vec![(ty.least(), ty.greatest())], for_all: false }
     }
 
     /// The numbers in any of these ranges (both ends included). `None` if there are none, or one is not of the type.
@@ -37,7 +39,19 @@ impl Domain {
                 _ => joined.push((from, to)),
             }
         }
-        (!joined.is_empty()).then_some(Self { ty, ranges: joined })
+        (!joined.is_empty()).then_some(Self { ty, ranges: joined, for_all: false })
+    }
+
+    /// These values, standing for all of the type.
+    #[must_use]
+    pub fn standing_for_all(self) -> Self {
+        Self { for_all: true, ..self }
+    }
+
+    /// Whether the values stand for all of the type: the others can be told from them nowhere.
+    #[must_use]
+    pub fn stands_for_all(&self) -> bool {
+        self.for_all
     }
 
     /// The ranges of numbers, ascending, both ends included.

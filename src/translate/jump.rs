@@ -1,17 +1,19 @@
 //! `JMP`, `JMPC`, `JMPCN`: the control token goes to the target's place or to the next line's.
 
-use super::weaver::{Subnet, VALUES};
+use super::subnet::Subnet;
+use super::weaver::VALUES;
 use crate::semantics::Condition;
 
 pub fn translate(subnet: &mut Subnet<'_>, condition: Condition, target: usize) {
+    let (here, target) = (subnet.here(), subnet.at_line(target));
     let jumps_on = match condition {
-        Condition::Always => return subnet.step(target, &[]),
+        Condition::Always => return subnet.step(here, target, &[]),
         Condition::IfTrue => true,
         Condition::IfFalse => false,
     };
-    let result = subnet.result();
+    let result = subnet.truth();
     for value in VALUES {
         let to = if value == jumps_on { target } else { subnet.next() };
-        subnet.step(to, &[(&result, value, value)]);
+        subnet.step(here, to, &[(result, value, value)]);
     }
 }

@@ -1,15 +1,12 @@
 //! `LD x`, `LDN x`: the current result takes the operand's value.
 
-use super::weaver::{Subnet, VALUES};
+use super::subnet::{Step, Subnet};
 use crate::flat::Operand;
+use crate::semantics::Type;
 
-pub fn translate(subnet: &mut Subnet<'_>, negated: bool, operand: Operand) {
-    let result = subnet.result();
-    for (value, bit) in subnet.readings(operand) {
-        for old in VALUES {
-            let read = bit.iter().map(|bit| (bit, value, value));
-            let changes: Vec<_> = std::iter::once((&result, old, value ^ negated)).chain(read).collect();
-            subnet.step(subnet.next(), &changes);
-        }
-    }
+pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, operand: Operand) {
+    let wires = subnet.wires(ty, negated, operand);
+    let steps: Vec<Step> =
+        wires.iter().zip(subnet.result(ty.width)).map(|(wire, result)| wire.assign(result)).collect();
+    subnet.chain(subnet.here(), subnet.next(), &steps);
 }

@@ -1,12 +1,22 @@
 //! `S x`, `R x`: the variable becomes 1 or 0 if the current result is 1, and keeps its value if it is 0.
 
-use super::weaver::{Subnet, VALUES};
-use crate::semantics::VarId;
+use super::element::targets;
+use super::subnet::{Step, Subnet};
+use super::weaver::VALUES;
+use crate::flat::Target;
 
-pub fn translate(subnet: &mut Subnet<'_>, variable: VarId, target: bool) {
-    let (result, bit) = (subnet.result(), subnet.variable(variable));
-    for old in VALUES {
-        subnet.step(subnet.next(), &[(&result, false, false), (&bit, old, old)]);
-        subnet.step(subnet.next(), &[(&result, true, true), (&bit, old, target)]);
+pub fn translate(subnet: &mut Subnet<'_>, target: Target, value: bool) {
+    let result = subnet.truth();
+    let mut step = Step::new();
+    for (bit, given) in targets(subnet, target).into_iter().flatten() {
+        let Some(bit) = bit else { continue };
+        for old in VALUES {
+            for (condition, new) in [(false, old), (true, value)] {
+                let mut changes = vec![(result, condition, condition), (bit, old, new)];
+                changes.extend_from_slice(&given);
+                step.push(changes);
+            }
+        }
     }
+    subnet.chain(subnet.here(), subnet.next(), &[step]);
 }

@@ -1,13 +1,30 @@
 //! `ST x`, `STN x`: the variable takes the value of the current result.
 
-use super::weaver::{Subnet, VALUES};
-use crate::semantics::VarId;
+use super::element::targets;
+use super::subnet::{Step, Subnet};
+use super::weaver::VALUES;
+use super::wire::with;
+use crate::flat::Target;
+use crate::semantics::Type;
 
-pub fn translate(subnet: &mut Subnet<'_>, negated: bool, variable: VarId) {
-    let (result, bit) = (subnet.result(), subnet.variable(variable));
-    for value in VALUES {
-        for old in VALUES {
-            subnet.step(subnet.next(), &[(&result, value, value), (&bit, old, value ^ negated)]);
+pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, target: Target) {
+    let mut steps: Vec<Step> = Vec::new();
+    for (alternatives, result) in targets(subnet, target).into_iter().zip(subnet.result(ty.width)) {
+        let mut step = Step::new();
+        for value in VALUES {
+            for (bit, given) in &alternatives {
+                let Some(bit) = *bit else {
+                    step.push(with((result, value, value), given));
+                    continue;
+                };
+                for old in VALUES {
+                    let mut changes = vec![(result, value, value), (bit, old, value ^ negated)];
+                    changes.extend_from_slice(given);
+                    step.push(changes);
+                }
+            }
         }
+        steps.push(step);
     }
+    subnet.chain(subnet.here(), subnet.next(), &steps);
 }

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::copy::{self, Source, Way};
 use super::domain::{Domain, Domains};
+use super::instruction;
 use super::plant::{Component, Plant};
 use super::provenance::{Part, PlaceRole, TransitionRole};
-use super::weaver::{Subnet, VALUES, Weaver};
-use super::{combine, complement, jump, load, set_reset, store};
-use crate::flat::{FlatProgram, Instruction, Target};
+use super::subnet::Subnet;
+use super::weaver::{Bit, Weaver, Woven};
+use crate::flat::FlatProgram;
 use crate::net::{Arcs, Net, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
 
@@ -28,6 +30,12 @@ pub struct System {
     pub transitions: Vec<TransitionRole>,
     /// The place of each role but [`PlaceRole::Plant`].
     by_role: BTreeMap<PlaceRole, PlaceId>,
+    /// The bits of each variable.
+    variables: Vec<Vec<Bit>>,
+    /// The bits of the current result.
+    result: Vec<Bit>,
+    /// For each place, the transitions that move control from it; last, those that do not move control.
+    moves: Vec<Vec<TransitionId>>,
 }
 
 impl System {
@@ -43,12 +51,54 @@ impl System {
         let mut weaver = Weaver::new(&program.name);
         let lines = user_places(&mut weaver, &program);
         for (line, code) in program.code.iter().enumerate() {
-            instruction(&mut Subnet::new(&mut weaver, line, &lines), code.instruction);
+            instruction::translate(&mut Subnet::new(&mut weaver, line, &lines), code.instruction);
         }
-        system_program(&mut weaver, &program, &plant, lines[0], lines[program.end()]);
-        let (net, places, transitions) = weaver.build();
+        system_program(&mut weaver, &program, &plant, &domains, (lines[0], lines[program.end()]));
+        let Woven { net, places, transitions, variables, result } = weaver.build();
         let by_role = places.iter().copied().zip(net.place_ids()).collect();
-        Self { program, plant, domains, net, places, transitions, by_role }
+        let moves = moves(&net, &places);
+        Self { program, plant, domains, net, places, transitions, by_role, variables, result, moves }
+    }
+
+    /// The place of a role that only one place has, if there is one. Not every line has a place for each of its hazards:
+    /// none if it cannot happen there.
+    #[must_use]
+    pub fn find(&self, role: PlaceRole) -> Option<PlaceId> {
+        self.by_role.get(&role).copied()
+    }
+
+    /// The value of a variable where `is_marked` says which places have a token. `None` if not exactly one place of each of
+    /// its bits is marked.
+    pub fn value(&self, variable: VarId, is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
+        pattern(&self.variables[variable.0], is_marked)
+    }
+
+    /// The value of the lowest `width` bits of the current result; see [`System::value`].
+    pub fn result(&self, width: u32, is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
+        pattern(&self.result[..width as usize], is_marked)
+    }
+
+    /// How many bits the current result has: as many as the widest type the program works with.
+    #[must_use]
+    pub fn result_width(&self) -> u32 {
+        self.result.len() as u32
+    }
+
+    /// The places for 0 and 1 of each bit that is stored of a variable, from the lowest.
+    pub fn bits(&self, variable: VarId) -> impl ExactSizeIterator<Item = [PlaceId; 2]> {
+        self.variables[variable.0].iter().map(|bit| bit.places())
+    }
+
+    /// The transitions that take the token of control from a place, or read it there: a jump to its own line.
+    #[must_use]
+    pub fn moves(&self, control: PlaceId) -> &[TransitionId] {
+        &self.moves[control.index()]
+    }
+
+    /// The transitions that have nothing to do with control: the plant's.
+    #[must_use]
+    pub fn plant_moves(&self) -> &[TransitionId] {
+        self.moves.last().map_or(&[], Vec::as_slice)
     }
 
     /// The place of a role that only one place has.
@@ -85,14 +135,32 @@ impl System {
     }
 }
 
+/// For each place, the transitions that move control from it, and those that do not move control.
+fn moves(net: &Net, places: &[PlaceRole]) -> Vec<Vec<TransitionId>> {
+    let mut moves = vec![Vec::new(); net.places().len() + 1];
+    for id in net.transition_ids() {
+        let arcs = &net.transition(id).arcs;
+        let control = arcs.consume.iter().chain(&arcs.read).find(|place| places[place.index()].is_control());
+        moves[control.map_or(net.places().len(), |place| place.index())].push(id);
+    }
+    moves
+}
+
+/// The value of some bits, from the lowest.
+fn pattern(bits: &[Bit], is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
+    bits.iter().enumerate().try_fold(0, |pattern, (position, bit)| {
+        let one = is_marked(bit.place(true));
+        (one != is_marked(bit.place(false))).then_some(pattern | u64::from(one) << position)
+    })
+}
+
 /// The bits of the program and its control places, one for each line and `End`.
 fn user_places(weaver: &mut Weaver, program: &FlatProgram) -> Vec<PlaceId> {
-    for (i, variable) in program.variables.iter().enumerate() {
-        weaver.add_variable(VarId(i), &variable.name, variable.initial == 1);
-    }
+    program.variables.iter().for_each(|variable| weaver.add_variable(variable));
     // An apostrophe is in no IL name, so this one is free if `CR` is not.
     let taken = program.variables.iter().any(|variable| variable.name == "CR");
-    weaver.add_result(if taken { "CR'" } else { "CR" });
+    let width = program.code.iter().map(|line| instruction::width(&line.instruction)).max();
+    weaver.add_result(if taken { "CR'" } else { "CR" }, width.unwrap_or(1));
     (0..=program.end())
         .map(|line| {
             let name = if line == program.end() { "End".to_owned() } else { format!("line_{}", line + 1) };
@@ -101,27 +169,15 @@ fn user_places(weaver: &mut Weaver, program: &FlatProgram) -> Vec<PlaceId> {
         .collect()
 }
 
-/// The subnet of an instruction (*Compute* in the seed paper, section 3.3).
-fn instruction(subnet: &mut Subnet<'_>, instruction: Instruction) {
-    match instruction {
-        Instruction::Load { negated, operand, .. } => load::translate(subnet, negated, operand),
-        Instruction::Store { negated, target: Target::Variable(variable), .. } => {
-            store::translate(subnet, negated, variable);
-        }
-        Instruction::Set(Target::Variable(variable)) => set_reset::translate(subnet, variable, true),
-        Instruction::Reset(Target::Variable(variable)) => set_reset::translate(subnet, variable, false),
-        Instruction::Complement(_) => complement::translate(subnet),
-        Instruction::Combine { function, negated, operand, .. } => {
-            combine::translate(subnet, function, negated, operand);
-        }
-        Instruction::Jump { condition, target } => jump::translate(subnet, condition, target),
-        _ => {}
-    }
-}
-
 /// The PLC's cycle: `block` stops the plant, the inputs are copied one after another, the program runs from `begin` to
 /// `end`, `unblock` lets the plant move again.
-fn system_program(weaver: &mut Weaver, program: &FlatProgram, plant: &Plant, begin: PlaceId, end: PlaceId) {
+fn system_program(
+    weaver: &mut Weaver,
+    program: &FlatProgram,
+    plant: &Plant,
+    domains: &Domains,
+    (begin, end): (PlaceId, PlaceId),
+) {
     let idle = weaver.place("idle", true, PlaceRole::Idle);
     let inputs: Vec<VarId> = program.with_role(Role::Input).collect();
     let mut control: Vec<PlaceId> = inputs
@@ -138,8 +194,16 @@ fn system_program(weaver: &mut Weaver, program: &FlatProgram, plant: &Plant, beg
     let block = Arcs { consume: stop, produce: vec![control[0]], read: vec![] };
     weaver.transition("block".to_owned(), block, TransitionRole::Block);
     for (k, &input) in inputs.iter().enumerate() {
-        for (source, value) in sources(plant, &plant_places, input) {
-            copy(weaver, program, input, source.as_ref(), value, (control[k], control[k + 1]));
+        let way = Way { from: control[k], to: control[k + 1] };
+        match plant.driver(input) {
+            Some(driver) => {
+                let sources = sources(&plant.components[driver], &plant_places[driver], input);
+                copy::driven(weaver, program, input, &sources, way);
+            }
+            None => {
+                let all = Domain::all(program.variable(input).ty);
+                copy::free(weaver, program, input, domains.get(&input).unwrap_or(&all), way);
+            }
         }
     }
     let go = blocking.iter().flatten().copied().chain([idle]).collect();
@@ -150,38 +214,13 @@ fn system_program(weaver: &mut Weaver, program: &FlatProgram, plant: &Plant, beg
     }
 }
 
-/// Where an input's external value comes from: each plant place that gives it one, or, for a free input, either value from
-/// nowhere.
-fn sources(plant: &Plant, places: &[Vec<PlaceId>], input: VarId) -> Vec<(Option<(PlaceId, String)>, bool)> {
-    let Some(driver) = plant.driver(input) else { return VALUES.map(|value| (None, value)).into() };
-    let component: &Component = &plant.components[driver];
-    let giving = component.places.iter().zip(&places[driver]);
+/// The places of a component that give an input its external value.
+fn sources(component: &Component, places: &[PlaceId], input: VarId) -> Vec<Source> {
+    let giving = component.places.iter().zip(places);
     giving
         .filter_map(|(place, &id)| {
-            let &(_, value) = place.drives.iter().find(|&&(variable, _)| variable == input)?;
-            Some((Some((id, place.name.clone())), value == 1))
+            let &(_, pattern) = place.drives.iter().find(|&&(variable, _)| variable == input)?;
+            Some(Source { place: id, name: place.name.clone(), pattern })
         })
         .collect()
-}
-
-/// The two transitions that give an input one external value, whatever it was (seed paper, figure 8).
-fn copy(
-    weaver: &mut Weaver,
-    program: &FlatProgram,
-    input: VarId,
-    source: Option<&(PlaceId, String)>,
-    value: bool,
-    (from, to): (PlaceId, PlaceId),
-) {
-    let bit = weaver.variable(input);
-    let name = &program.variable(input).name;
-    for old in VALUES {
-        let mut arcs = Arcs { consume: vec![from], produce: vec![to], read: vec![] };
-        arcs.read.extend(source.map(|&(place, _)| place));
-        arcs.consume.push(bit.place(old));
-        arcs.produce.push(bit.place(value));
-        let from = source.map(|(_, place)| format!(" from {place}")).unwrap_or_default();
-        let label = format!("copy_{name}[{}->{}{from}]", u8::from(old), u8::from(value));
-        weaver.transition(label, arcs, TransitionRole::Copy { variable: input, value });
-    }
 }

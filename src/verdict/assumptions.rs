@@ -1,10 +1,13 @@
 //! Under which assumptions the verdicts are proofs, in words.
 
+use super::Options;
+use crate::flat::Hazard;
+use crate::logic::View;
 use crate::semantics::{Role, VarId};
 use crate::translate::System;
 
-/// The assumptions about a system; `fair` says that only runs in which the PLC keeps scanning were considered.
-pub fn assumptions(system: &System, fair: bool) -> Vec<String> {
+/// The assumptions about a system that is checked in this way.
+pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
     let program = &system.program;
     let names =
         |ids: Vec<VarId>| ids.iter().map(|&id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ");
@@ -24,12 +27,51 @@ pub fn assumptions(system: &System, fair: bool) -> Vec<String> {
         };
         assumptions.push(format!("`{}` {gives}{moves}", component.name));
     }
-    let free = names(system.free_inputs().collect());
-    if !free.is_empty() {
-        assumptions.push(format!("{free} may have any value in any scan"));
+    let (restricted, any): (Vec<VarId>, Vec<VarId>) = system
+        .free_inputs()
+        .partition(|input| !program.variable(*input).ty.is_bool() || system.domains.contains_key(input));
+    if !any.is_empty() {
+        assumptions.push(format!("{} may have any value in any scan", names(any)));
     }
-    if fair {
+    for input in restricted {
+        let (domain, name) = (system.domain(input), &program.variable(input).name);
+        let ranges = domain.ranges().iter();
+        let ranges = ranges.map(|(from, to)| if from == to { from.to_string() } else { format!("{from}..{to}") });
+        let (size, ranges) = (domain.size(), ranges.collect::<Vec<_>>().join(", "));
+        assumptions.push(match size {
+            1 if domain.stands_for_all() => {
+                format!("{name} may have any value in any scan; nothing depends on it, so {ranges} stands for all")
+            }
+            _ if domain.stands_for_all() => format!(
+                "{name} may have any value in any scan; it is only compared with constants, so {size} values stand for \
+                 all: {ranges}"
+            ),
+            1 => format!("{name} is {ranges} in every scan"),
+            _ => format!("{name} may have any of {size} values in any scan: {ranges}"),
+        });
+    }
+    assumptions.extend(arithmetic(system, options));
+    if let Some(time) = program.scan_time {
+        assumptions.push(format!("a scan begins every {time} ms; during a scan the clock stands still"));
+    }
+    if options.fair {
         assumptions.push("the PLC always scans again".to_owned());
+    }
+    assumptions
+}
+
+/// What is assumed of numbers that do not fit, and of division by zero.
+fn arithmetic(system: &System, options: &Options) -> Vec<String> {
+    let hazards = system.program.hazards();
+    let tolerated = |hazard| match hazard {
+        Hazard::Overflow if options.tolerated.overflow => Some("numbers that do not fit their type wrap around"),
+        Hazard::DivisionByZero if options.tolerated.division_by_zero => Some("a division by zero gives 0"),
+        _ => None,
+    };
+    let mut assumptions: Vec<String> = hazards.iter().filter_map(|&h| tolerated(h)).map(str::to_owned).collect();
+    if options.view == View::Transition && hazards.iter().any(|&hazard| !options.tolerated.allows(hazard)) {
+        assumptions
+            .push("after an error the program goes on, as it would with `--overflow wrap --div0 zero`".to_owned());
     }
     assumptions
 }

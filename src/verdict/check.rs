@@ -4,9 +4,12 @@ use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
+use super::failing::what_is_missing;
+use super::remarks::remarks;
 use super::views::{ScanView, SystemView, TransitionView, witness};
-use super::{Answer, Exploration, Outcome, Report, scan_ends};
+use super::{Answer, Exploration, Outcome, Report, hazards, scan_ends};
 use crate::explore::{Budget, Graph, MarkingSpace, Progress, ScanSpace, explore};
+use crate::flat::Tolerated;
 use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label, vacuous_premise};
 use crate::translate::{PlaceRole, System};
 
@@ -19,6 +22,16 @@ pub struct Options {
     pub fair: bool,
     /// How far the exploration may go.
     pub budget: Budget,
+    /// The hazards that are no errors. In the scan view nothing is known after the others.
+    pub tolerated: Tolerated,
+}
+
+impl Default for Options {
+    /// The scan view, and no hazard tolerated.
+    fn default() -> Self {
+        let (budget, tolerated) = (Budget::default(), Tolerated::default());
+        Self { view: View::Scan, fair: false, budget, tolerated }
+    }
 }
 
 /// Explores a system and judges the requirements, which must have been bound for the view. `watch` can end the exploration;
@@ -34,7 +47,7 @@ pub fn check(
     let transition_view;
     let view: &dyn SystemView = match options.view {
         View::Scan => {
-            scan_view = ScanView(ScanSpace::new(system));
+            scan_view = ScanView(ScanSpace::tolerating(system, options.tolerated));
             &scan_view
         }
         View::Transition => {
@@ -52,10 +65,19 @@ pub fn check(
         outcome: judge.outcome(bound),
     });
     let answers = answers.collect();
-    let ends = match options.view {
-        View::Scan => scan_ends::on_scans(system, &graph),
-        View::Transition => Judge { fair: None, ..judge }.outcome(&scan_ends::formula(system)),
+    let unfair = Judge { fair: None, ..judge };
+    let ends = match view.scans() {
+        Some(space) => scan_ends::on_scans(space, &graph),
+        None => unfair.outcome(&scan_ends::formula(system)),
     };
+    let met = |hazard| match view.scans() {
+        Some(space) => hazards::on_scans(space, &graph, hazard),
+        None => unfair.outcome(&hazards::formula(system, hazard)),
+    };
+    let hazards = hazards::checked(&system.program, options.tolerated);
+    let checks =
+        std::iter::once(scan_ends::answer(ends)).chain(hazards.map(|hazard| hazards::answer(hazard, met(hazard))));
+    let checks = checks.collect();
     // The first scan is a step too in the scan view, not in the transition view.
     let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
     Report {
@@ -68,9 +90,10 @@ pub fn check(
             stop: graph.stop().clone(),
             bytes: graph.bytes(),
         },
-        assumptions: assumptions(system, options.fair),
+        assumptions: assumptions(system, &options),
         answers,
-        checks: vec![scan_ends::answer(ends)],
+        checks,
+        remarks: view.scans().map(|space| remarks(space, &graph)).unwrap_or_default(),
     }
 }
 
@@ -109,7 +132,7 @@ impl Judge<'_> {
         }
         let everywhere = graph.initial().iter().all(|&state| labels.of(yes).contains(state as usize));
         if !(everywhere && graph.knows_initial()) {
-            return Outcome::Unknown(reason(graph));
+            return Outcome::Unknown(what_is_missing(graph));
         }
         let witness = match is_existential(&dag, yes).then(|| shown(yes)).flatten() {
             Some(Ok(witness)) => Some(witness),
@@ -140,15 +163,7 @@ fn is_existential(dag: &Dag, node: NodeId) -> bool {
     }
 }
 
-/// Why a formula that is neither shown nor refuted is undecided.
-fn reason(graph: &Graph) -> String {
-    if graph.failures().is_empty() {
-        format!("{}; the {} states explored do not decide it", graph.stop(), graph.len())
-    } else {
-        "a scan does not end, so that not every step leads to a state (see the check `scan-ends`)".to_owned()
-    }
-}
-
-fn disagreed(what: &str) -> Outcome {
+/// The answer where the replay shows another thing than the search.
+pub fn disagreed(what: &str) -> Outcome {
     Outcome::Unknown(format!("the replay refutes the search, which is an error in Petril; please report it: {what}"))
 }

@@ -2,10 +2,14 @@
 
 mod assumptions;
 mod check;
+mod failing;
+mod hazards;
+mod remarks;
 mod scan_ends;
 mod views;
 
 pub use check::{Options, check};
+pub use remarks::Remark;
 
 use crate::explore::Stop;
 use crate::logic::View;
@@ -162,6 +166,8 @@ pub struct Report {
     pub answers: Vec<Answer>,
     /// What is checked without asking.
     pub checks: Vec<Answer>,
+    /// In the scan view, what else is worth knowing.
+    pub remarks: Vec<Remark>,
 }
 
 impl Report {

@@ -1,12 +1,12 @@
 //! The check that every scan ends, made without asking: a program with a loop may never come to its end.
 
-use super::{Answer, Outcome, Trace, Witness};
-use crate::explore::{Failure, Graph, ScanSpace};
+use super::failing::{Failing, failing_scan, what_is_missing};
+use super::{Answer, Outcome};
+use crate::explore::{Failure, Graph, ScanSpace, Stop};
+use crate::flat::{FlatProgram, Instruction};
 use crate::interpret::{Fault, MAX_STEPS};
 use crate::logic::{Bound, Quantifier};
 use crate::translate::{PlaceRole, System};
-use crate::verdict::Note;
-use crate::witness::{replay_scans, scan_trace};
 
 /// The check with its outcome.
 pub fn answer(outcome: Outcome) -> Answer {
@@ -36,30 +36,28 @@ pub fn formula(system: &System) -> Bound {
 }
 
 /// The check in the scan view: the search has met every scan there is.
-pub fn on_scans(system: &System, graph: &Graph) -> Outcome {
-    // A scan that never ends says more than one nobody waited for.
-    let endless = |(_, failure): &&(Option<u32>, Failure)| *failure == Failure::Scan(Fault::Endless);
-    let failures = graph.failures();
-    let Some(&(state, failure)) = failures.iter().find(endless).or(failures.first()) else {
-        return if graph.is_complete() {
-            Outcome::Holds { vacuous: None, witness: None }
-        } else {
-            Outcome::Unknown(format!("{}; the scans explored do end", graph.stop()))
-        };
-    };
-    if failure == Failure::Scan(Fault::TooLong) {
-        return Outcome::Unknown(format!("a scan takes more than {MAX_STEPS} instructions"));
-    }
-    let space = ScanSpace::new(system);
-    let path = state.map(|state| graph.path_to(state)).unwrap_or_default();
-    let states: Vec<&[u64]> = path.iter().map(|&state| graph.state(state)).collect();
-    let trace = scan_trace(&space, &states, None, true);
-    let last = trace.scans.len() - 1;
-    match replay_scans(system, &trace, |_, _| Ok(())) {
-        Ok(()) => {
-            let text = "this scan never ends: it repeats a state".to_owned();
-            Outcome::Violated(Witness { trace: Trace::Scans(trace), notes: vec![Note { first: last, last, text }] })
+pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
+    match failing_scan(space, graph, |failure| *failure == Failure::Scan(Fault::Endless)) {
+        Failing::Shown(witness) => return Outcome::Violated(witness),
+        Failing::Refuted(disagreement) => {
+            return Outcome::Unknown(format!("the replay refutes the search: {disagreement}"));
         }
-        Err(disagreement) => Outcome::Unknown(format!("the replay refutes the search: {disagreement}")),
+        Failing::None => {}
     }
+    let too_long = |(_, failure): &(Option<u32>, Failure)| *failure == Failure::Scan(Fault::TooLong);
+    if graph.failures().iter().any(too_long) {
+        Outcome::Unknown(format!("a scan takes more than {MAX_STEPS} instructions"))
+    } else if *graph.stop() != Stop::Complete {
+        Outcome::Unknown(format!("{}; the scans explored do end", graph.stop()))
+    } else if graph.is_complete() || !has_loops(&space.system().program) {
+        Outcome::Holds { vacuous: None, witness: None }
+    } else {
+        Outcome::Unknown(what_is_missing(graph))
+    }
+}
+
+/// Whether control can go back. A program without loops ends whatever it computes.
+fn has_loops(program: &FlatProgram) -> bool {
+    let mut lines = program.code.iter().enumerate();
+    lines.any(|(line, code)| matches!(code.instruction, Instruction::Jump { target, .. } if target <= line))
 }

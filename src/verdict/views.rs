@@ -5,12 +5,14 @@ use crate::explore::{Graph, MarkingSpace, ScanSpace, StateSpace};
 use crate::logic::{Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
 use crate::translate::System;
 use crate::verdict::Note;
-use crate::witness::{Disagreement, Replay, firing_trace, replay_firings, replay_scans, scan_trace};
+use crate::witness::{Disagreement, Holds, firing_trace, replay_firings, replay_scans, scan_trace};
 
 /// A view of a system.
 pub trait SystemView: Sync {
     /// Its states and steps.
     fn space(&self) -> &dyn StateSpace;
+    /// Its states as ends of scans, if they are.
+    fn scans(&self) -> Option<&ScanSpace<'_>>;
     /// The system.
     fn system(&self) -> &System;
     /// Whether a formula about one state holds in a state.
@@ -20,7 +22,7 @@ pub trait SystemView: Sync {
         &self,
         states: &[&[u64]],
         loop_start: Option<usize>,
-        shows: &dyn Fn(usize, &Replay<'_>) -> Result<(), Disagreement>,
+        shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement>;
 }
 
@@ -30,6 +32,10 @@ pub struct ScanView<'s>(pub ScanSpace<'s>);
 impl SystemView for ScanView<'_> {
     fn space(&self) -> &dyn StateSpace {
         &self.0
+    }
+
+    fn scans(&self) -> Option<&ScanSpace<'_>> {
+        Some(&self.0)
     }
 
     fn system(&self) -> &System {
@@ -44,9 +50,9 @@ impl SystemView for ScanView<'_> {
         &self,
         states: &[&[u64]],
         loop_start: Option<usize>,
-        shows: &dyn Fn(usize, &Replay<'_>) -> Result<(), Disagreement>,
+        shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement> {
-        let trace = scan_trace(&self.0, states, loop_start, false);
+        let trace = scan_trace(&self.0, states, loop_start, None);
         replay_scans(self.system(), &trace, shows)?;
         Ok(Trace::Scans(trace))
     }
@@ -63,6 +69,10 @@ impl SystemView for TransitionView<'_> {
         &self.space
     }
 
+    fn scans(&self) -> Option<&ScanSpace<'_>> {
+        None
+    }
+
     fn system(&self) -> &System {
         self.system
     }
@@ -75,13 +85,13 @@ impl SystemView for TransitionView<'_> {
         &self,
         states: &[&[u64]],
         loop_start: Option<usize>,
-        shows: &dyn Fn(usize, &Replay<'_>) -> Result<(), Disagreement>,
+        shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement> {
         let trace = firing_trace(&self.space, states, loop_start);
         if trace.firings.len() + 1 != states.len() + usize::from(loop_start.is_some()) {
             return Err(Disagreement("no transition leads from one state of the trace to the next".to_owned()));
         }
-        replay_firings(self.system, &trace, shows)?;
+        replay_firings(self.system, &trace, |position, replay| shows(position, &|formula| replay.holds(formula)))?;
         Ok(Trace::Firings(trace))
     }
 }
@@ -89,12 +99,12 @@ impl SystemView for TransitionView<'_> {
 /// The run that evidence describes, replayed, with everything it claims about single states checked on the net.
 pub fn witness(view: &dyn SystemView, graph: &Graph, dag: &Dag, evidence: &Evidence) -> Result<Witness, Disagreement> {
     let states: Vec<&[u64]> = evidence.states.iter().map(|&state| graph.state(state)).collect();
-    let trace = view.replayed(&states, evidence.loop_start, &|position, replay| {
+    let trace = view.replayed(&states, evidence.loop_start, &|position, holds| {
         for claim in evidence.claims.iter().filter(|claim| claim.position == position) {
             let Node::State { formula, negated } = dag.node(claim.node) else { continue };
-            if replay.holds(formula) != Some(!negated) {
+            if holds(formula) != Some(!negated) {
                 let sentence = dag.sentence(claim.node, view.system());
-                return Err(Disagreement(format!("the search claims that {sentence}, the net does not show it")));
+                return Err(Disagreement(format!("the search claims that {sentence}, the replay does not show it")));
             }
         }
         Ok(())

@@ -13,5 +13,5 @@ mod table;
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
 pub use narrate::{firing_table, line_by_line, scan_table};
 pub use replay::{Disagreement, Replay};
-pub use scan_trace::{PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
+pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
 pub use table::{Column, Table};

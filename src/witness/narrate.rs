@@ -3,8 +3,9 @@
 use super::firing_trace::FiringTrace;
 use super::scan_trace::{Scan, ScanTrace};
 use super::table::{Column, Table};
+use crate::flat::value_text;
 use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
+use crate::semantics::{Role, Type, VarId};
 use crate::source::Source;
 use crate::translate::{System, TransitionRole};
 
@@ -35,7 +36,8 @@ pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
         for &id in groups.iter().flatten() {
             let unknown = scan.end.is_none() && program.variable(id).role != Role::Input;
             let star = if memory[id.0] == before[id.0] { "" } else { "*" };
-            row.push(if unknown { "?".to_owned() } else { format!("{star}{}", memory[id.0]) });
+            let value = value_text(program.variable(id).ty, memory[id.0]);
+            row.push(if unknown { "?".to_owned() } else { format!("{star}{value}") });
         }
         if has_moves {
             row.push(moves(system, scan));
@@ -52,7 +54,8 @@ fn moves(system: &System, scan: &Scan) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// The instructions a scan of the trace executes, each with the current result after it and the variable it changed.
+/// The instructions a scan of the trace executes, each with the current result after it, the variable it changed,
+/// and the hazard it met.
 ///
 /// A scan that never ends is told until its state repeats.
 #[must_use]
@@ -72,19 +75,25 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
         vec![Column::right("source"), Column::left("text")],
     ]);
     let mut seen: Vec<Machine<'_>> = Vec::new();
+    let mut result = Type::BOOL;
     while !machine.at_end() && !seen.iter().any(|earlier| earlier.same_state(&machine)) {
         let line = machine.line();
         let before = machine.clone();
-        machine.step();
+        let hazard = machine.step();
         let code = &program.code[line];
+        result = code.instruction.gives().unwrap_or(result);
         let change = (0..program.variables.len()).map(VarId).find(|&id| before.value(id) != machine.value(id));
-        let change = change.map(|id| format!("{} = {}", program.variable(id).name, machine.value(id)));
+        let change = change.map(|id| {
+            let variable = program.variable(id);
+            format!("{} = {}", variable.name, value_text(variable.ty, machine.value(id)))
+        });
+        let changes: Vec<String> = change.into_iter().chain(hazard.map(|hazard| hazard.to_string())).collect();
         let from = source.line_of(code.span.start);
         table.row(vec![
             (line + 1).to_string(),
             program.text(code.instruction),
-            machine.result().to_string(),
-            change.unwrap_or_default(),
+            value_text(result, machine.result()),
+            changes.join(", "),
             from.to_string(),
             source.line_text(from).to_owned(),
         ]);

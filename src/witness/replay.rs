@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::flat::Hazard;
 use crate::interpret::Machine;
 use crate::logic::{Bound, Valuation};
 use crate::net::{Marking, PlaceId, TransitionId};
@@ -23,14 +24,30 @@ impl fmt::Display for Disagreement {
 pub struct Replay<'s> {
     system: &'s System,
     marking: Marking,
+    /// The place where control is.
+    control: PlaceId,
     machine: Machine<'s>,
+    /// How many bits of the current result have a meaning: as many as the last instruction gave it.
+    width: u32,
+    /// The hazards whose places control has passed within this line.
+    passed: Vec<Hazard>,
+    /// The hazards met since the scan began, each with its line.
+    hazards: Vec<(usize, Hazard)>,
 }
 
 impl<'s> Replay<'s> {
     /// The run that has not begun: power-on, control in `idle`.
     #[must_use]
     pub fn new(system: &'s System) -> Self {
-        Self { system, marking: system.net.initial_marking(), machine: Machine::new(&system.program) }
+        Self {
+            system,
+            marking: system.net.initial_marking(),
+            control: system.place(PlaceRole::Idle),
+            machine: Machine::new(&system.program),
+            width: 1,
+            passed: Vec::new(),
+            hazards: Vec::new(),
+        }
     }
 
     /// The marking reached.
@@ -45,7 +62,8 @@ impl<'s> Replay<'s> {
         self.marking.is_marked(self.system.place(role))
     }
 
-    /// Fires a transition, executes what it stands for, and compares.
+    /// Fires a transition. When control comes to a line, the instruction it comes from has been executed on the net; then the
+    /// interpreter executes it too, and both are compared.
     ///
     /// # Errors
     /// The transition is not enabled, the net not safe, or net and interpreter differ afterwards.
@@ -58,12 +76,33 @@ impl<'s> Replay<'s> {
         net.fire(&mut self.marking, transition).map_err(|crate::net::NotSafe(place)| {
             Disagreement(format!("`{name}` marks `{}` twice", net.place(place).name))
         })?;
+        let places = &self.system.places;
+        let arrived = net.transition(transition).arcs.produce.iter().find(|place| places[place.index()].is_control());
+        self.control = arrived.copied().unwrap_or(self.control);
+        self.follow(transition)?;
+        if self.is_within_line() {
+            return Ok(());
+        }
+        self.compare().map_err(|what| Disagreement(format!("after `{name}`, net and interpreter differ in {what}")))
+    }
+
+    /// Lets the interpreter do what a transition stands for that has been fired.
+    fn follow(&mut self, transition: TransitionId) -> Result<(), Disagreement> {
         match self.system.transitions[transition.index()] {
-            TransitionRole::Block => self.machine.begin_scan(),
-            TransitionRole::Copy { variable, value } => self.machine.set(variable, u64::from(value)),
-            TransitionRole::Line(line) if line == self.machine.line() => {
-                self.machine.step();
+            TransitionRole::Block => {
+                self.hazards.clear();
+                self.machine.begin_scan();
             }
+            TransitionRole::Copy { variable, bit, value } => {
+                let others = self.machine.value(variable) & !(1 << bit);
+                self.machine.set(variable, others | u64::from(value) << bit);
+            }
+            TransitionRole::Line(line) if line == self.machine.line() => match self.system.places[self.control.index()]
+            {
+                PlaceRole::Line(_) => return self.execute(line),
+                PlaceRole::Hazard(_, hazard) => self.passed.push(hazard),
+                _ => {}
+            },
             TransitionRole::Line(line) => {
                 let expected = self.machine.line() + 1;
                 return Err(Disagreement(format!(
@@ -73,7 +112,32 @@ impl<'s> Replay<'s> {
             }
             TransitionRole::Unblock | TransitionRole::Plant { .. } => {}
         }
-        self.compare().map_err(|what| Disagreement(format!("after `{name}`, net and interpreter differ in {what}")))
+        Ok(())
+    }
+
+    /// The interpreter executes the line that the net has come to the end of. Both must have met the same hazard.
+    fn execute(&mut self, line: usize) -> Result<(), Disagreement> {
+        let given = self.system.program.code[line].instruction.gives();
+        self.width = given.map_or(self.width, |ty| ty.width);
+        let met: Vec<Hazard> = self.machine.step().into_iter().collect();
+        let passed = std::mem::take(&mut self.passed);
+        self.hazards.extend(met.iter().map(|&hazard| (line, hazard)));
+        if met == passed {
+            return Ok(());
+        }
+        let names = |hazards: &[Hazard]| hazards.iter().map(Hazard::to_string).collect::<Vec<_>>().join(", ");
+        Err(Disagreement(format!(
+            "in line {}, the interpreter meets the hazards [{}], the net [{}]",
+            line + 1,
+            names(&met),
+            names(&passed)
+        )))
+    }
+
+    /// Whether control is between two steps of one instruction.
+    #[must_use]
+    pub fn is_within_line(&self) -> bool {
+        matches!(self.system.places[self.control.index()], PlaceRole::Within(..) | PlaceRole::Hazard(..))
     }
 
     /// Fires the one enabled transition among those of these roles.
@@ -81,9 +145,10 @@ impl<'s> Replay<'s> {
     /// # Errors
     /// There is not exactly one, or [`Replay::fire`] fails.
     pub fn fire_only(&mut self, of: impl Fn(TransitionRole) -> bool) -> Result<TransitionId, Disagreement> {
-        let net = &self.system.net;
-        let candidates = net.transition_ids().filter(|id| of(self.system.transitions[id.index()]));
-        let enabled: Vec<TransitionId> = candidates.filter(|&id| net.is_enabled(&self.marking, id)).collect();
+        let system = self.system;
+        let candidates = system.moves(self.control).iter().chain(system.plant_moves()).copied();
+        let candidates = candidates.filter(|id| of(system.transitions[id.index()]));
+        let enabled: Vec<TransitionId> = candidates.filter(|&id| system.net.is_enabled(&self.marking, id)).collect();
         let &[only] = enabled.as_slice() else {
             return Err(Disagreement(format!("{} transitions are enabled where one should be", enabled.len())));
         };
@@ -92,31 +157,40 @@ impl<'s> Replay<'s> {
     }
 
     fn compare(&self) -> Result<(), String> {
-        let machine_is_running = self.system.places.iter().zip(self.system.net.place_ids());
-        for (&role, place) in machine_is_running {
-            let expected = match role {
-                PlaceRole::Bit { variable, value } => (self.machine.value(variable) == 1) == value,
-                PlaceRole::Result(value) => (self.machine.result() == 1) == value,
-                // Before the program runs, control is in the system program.
-                PlaceRole::Line(line) if self.marking.is_marked(place) => self.machine.line() == line,
-                _ => continue,
-            };
-            let agrees = match role {
-                PlaceRole::Line(_) => expected,
-                _ => self.marking.is_marked(place) == expected,
-            };
-            if !agrees {
-                return Err(format!("`{}`", self.system.net.place(place).name));
+        let is_marked = |place| self.marking.is_marked(place);
+        let program = &self.system.program;
+        for variable in (0..program.variables.len()).map(VarId) {
+            if self.system.value(variable, is_marked) != Some(self.machine.value(variable)) {
+                return Err(format!("`{}`", program.variable(variable).name));
             }
         }
-        Ok(())
+        let meant = u64::MAX >> (64 - self.width);
+        if self.system.result(self.width, is_marked) != Some(self.machine.result() & meant) {
+            return Err("the current result".to_owned());
+        }
+        // Before the program runs, control is in the system program.
+        match self.system.places[self.control.index()] {
+            PlaceRole::Line(line) if line != self.machine.line() => Err("the line".to_owned()),
+            _ => Ok(()),
+        }
+    }
+
+    /// The value of a variable, as the net has it. What is no value is 0.
+    #[must_use]
+    pub fn value(&self, variable: VarId) -> u64 {
+        self.system.value(variable, |place| self.marking.is_marked(place)).unwrap_or(0)
+    }
+
+    /// The hazards met since the scan began, each with its line (from 0), in the order of time.
+    #[must_use]
+    pub fn hazards(&self) -> &[(usize, Hazard)] {
+        &self.hazards
     }
 
     /// The values of the variables, as the net has them.
     #[must_use]
     pub fn memory(&self) -> Vec<u64> {
-        let variables = 0..self.system.program.variables.len();
-        variables.map(|v| u64::from(self.is_at(PlaceRole::Bit { variable: VarId(v), value: true }))).collect()
+        (0..self.system.program.variables.len()).map(|variable| self.value(VarId(variable))).collect()
     }
 
     /// Whether a formula about one state holds now, as the net has it. `None` for a temporal formula.
@@ -127,9 +201,9 @@ impl<'s> Replay<'s> {
 }
 
 impl Valuation for Replay<'_> {
-    fn variable(&self, variable: VarId) -> bool {
+    fn value(&self, variable: VarId) -> u64 {
         debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
-        self.is_at(PlaceRole::Bit { variable, value: true })
+        Replay::value(self, variable)
     }
 
     fn is_marked(&self, place: PlaceId) -> bool {

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::replay::{Disagreement, Replay};
-use crate::explore::{ScanSpace, ScanState};
+use crate::explore::{Failure, ScanSpace, ScanState};
+use crate::flat::Hazard;
+use crate::logic::Bound;
 use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
 
@@ -25,6 +27,9 @@ pub struct Scan {
     pub inputs: Vec<(VarId, u64)>,
     /// The state at its end; `None` if it never ends.
     pub end: Option<ScanState>,
+    /// The error it meets, with the line (from 0). What comes after it in the scan, and the state at its end, are as if it
+    /// were tolerated.
+    pub hazard: Option<(usize, Hazard)>,
 }
 
 /// A firing of the plant.
@@ -38,9 +43,15 @@ pub struct PlantMove {
 
 /// The trace of packed scan states that follow one another, the first being one after the first scan.
 ///
-/// With `loop_start`, one more scan leads back to the state at that position. With `endless`, the trace goes on with a scan that never ends from its last state (from power-on if there is none).
+/// With `loop_start`, one more scan leads back to the state at that position. With `failing`, the trace goes on with a scan
+/// that fails in this way from its last state (from power-on if there is none).
 #[must_use]
-pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<usize>, endless: bool) -> ScanTrace {
+pub fn scan_trace(
+    space: &ScanSpace<'_>,
+    states: &[&[u64]],
+    loop_start: Option<usize>,
+    failing: Option<Failure>,
+) -> ScanTrace {
     let system = space.system();
     let inputs = |memory: &dyn Fn(VarId) -> u64| -> Vec<(VarId, u64)> {
         system.program.with_role(Role::Input).map(|input| (input, memory(input))).collect()
@@ -50,15 +61,21 @@ pub fn scan_trace(space: &ScanSpace<'_>, states: &[&[u64]], loop_start: Option<u
     for state in states.iter().copied().chain(loop_start.map(|start| states[start])) {
         let end = space.unpack(state);
         let inputs = inputs(&|input| end.memory[input.0]);
-        scans.push(Scan { moves: moves(system, &before, &end.plant), inputs, end: Some(end.clone()) });
+        scans.push(Scan { moves: moves(system, &before, &end.plant), inputs, end: Some(end.clone()), hazard: None });
         before = end;
     }
-    if endless {
+    if failing.is_some() {
         let mut last = None;
         space.scans(&before, &mut |run| {
-            if run.end.is_err() && last.is_none() {
+            if run.end.err() == failing && last.is_none() {
                 let inputs = inputs(&|input| run.machine.value(input));
-                last = Some(Scan { moves: moves(system, &before, run.plant), inputs, end: None });
+                let memory = || (0..system.program.variables.len()).map(|id| run.machine.value(VarId(id))).collect();
+                let end = run.machine.at_end().then(|| ScanState { plant: run.plant.to_vec(), memory: memory() });
+                let hazard = match failing {
+                    Some(Failure::Hazard(line, hazard)) => Some((line, hazard)),
+                    _ => None,
+                };
+                last = Some(Scan { moves: moves(system, &before, run.plant), inputs, end, hazard });
             }
         });
         scans.extend(last);
@@ -76,6 +93,9 @@ fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove>
     paths.flatten().collect()
 }
 
+/// Whether a formula about one state holds now; `None` for a temporal formula.
+pub type Holds<'a> = &'a dyn Fn(&Bound) -> Option<bool>;
+
 /// Replays a trace, and calls `at_end` at the end of each scan with its position.
 ///
 /// # Errors
@@ -83,7 +103,7 @@ fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove>
 pub fn replay_scans(
     system: &System,
     trace: &ScanTrace,
-    mut at_end: impl FnMut(usize, &Replay<'_>) -> Result<(), Disagreement>,
+    mut at_end: impl FnMut(usize, Holds<'_>) -> Result<(), Disagreement>,
 ) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
     let end_place = PlaceRole::Line(system.program.end());
@@ -93,12 +113,21 @@ pub fn replay_scans(
             replay.fire_only(|role| role == TransitionRole::Plant { component, transition }).map_err(in_scan)?;
         }
         replay.fire_only(|role| role == TransitionRole::Block).map_err(in_scan)?;
-        for &(variable, value) in &scan.inputs {
-            replay.fire_only(|role| role == TransitionRole::Copy { variable, value: value == 1 }).map_err(in_scan)?;
+        for &(variable, pattern) in &scan.inputs {
+            for bit in (0..system.program.variable(variable).bits).rev() {
+                let copy = TransitionRole::Copy { variable, bit, value: pattern >> bit & 1 == 1 };
+                replay.fire_only(|role| role == copy).map_err(in_scan)?;
+            }
         }
         let mut seen = BTreeSet::new();
-        while !replay.is_at(end_place) && seen.insert(replay.marking().clone()) {
+        while !replay.is_at(end_place) && (replay.is_within_line() || seen.insert(replay.marking().clone())) {
             replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
+            if scan.end.is_none() && scan.hazard.is_some_and(|hazard| replay.hazards().contains(&hazard)) {
+                return Ok(());
+            }
+        }
+        if scan.hazard.is_some_and(|hazard| !replay.hazards().contains(&hazard)) {
+            return Err(in_scan(Disagreement("it does not meet this hazard".to_owned())));
         }
         let Some(end) = &scan.end else {
             return if replay.is_at(end_place) { Err(in_scan(Disagreement("it ends".to_owned()))) } else { Ok(()) };
@@ -107,7 +136,7 @@ pub fn replay_scans(
             return Err(in_scan(Disagreement("it never ends".to_owned())));
         }
         compare(system, &replay, end).map_err(in_scan)?;
-        at_end(position, &replay).map_err(in_scan)?;
+        at_end(position, &|formula| replay.holds(formula)).map_err(in_scan)?;
         replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
     }
     // Both ends have been compared with the net, so they are the same if they say the same.

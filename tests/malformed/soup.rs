@@ -250,12 +250,12 @@ proptest! {
     #[test]
     fn of_requirements(text in soup(REQUIREMENT), framed in any::<bool>()) {
         let source = Source::new("soup", if framed { format!("requirement r: {text};") } else { text });
-        let (requirements, diagnostics) = parse_requirements(&source);
+        let (file, diagnostics) = parse_requirements(&source);
         are_printable(&diagnostics, &source)?;
-        prop_assert!(!requirements.is_empty() || any_error(&diagnostics));
+        prop_assert!(!file.requirements.is_empty() || !file.domains.is_empty() || any_error(&diagnostics));
         let program = support::program("PROGRAM p VAR a, q : BOOL; END_VAR\nLD a\nST q\nEND_PROGRAM");
         let system = System::new(program, Plant::default());
-        for requirement in requirements {
+        for requirement in file.requirements {
             for view in [View::Scan, View::Transition] {
                 if let Err(diagnostics) = bind(&requirement.formula, &system, view) {
                     prop_assert!(any_error(&diagnostics));

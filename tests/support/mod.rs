@@ -2,14 +2,17 @@
 #![allow(dead_code, reason = "each test uses a part")]
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
+pub mod assembler;
 pub mod document;
 pub mod naive_ctl;
 pub mod process;
+pub mod random_flat;
 pub mod random_formula;
 pub mod random_net;
 pub mod random_program;
 pub mod reports;
 pub mod systems;
+pub mod token_game;
 
 use petril::flat::{FlatProgram, flatten};
 use petril::logic::{Bound, View, bind, parse_formula};

@@ -1,6 +1,5 @@
 //! Reports of systems for tests.
 
-use petril::explore::Budget;
 use petril::logic::{View, bind, parse_requirements};
 use petril::source::Source;
 use petril::translate::System;
@@ -10,15 +9,14 @@ use petril::witness::ScanTrace;
 /// The report on a requirement file that must be right, in the scan view.
 pub fn report(system: &System, requirements: &str) -> Report {
     let source = Source::new("requirements", requirements);
-    let (requirements, errors) = parse_requirements(&source);
+    let (file, errors) = parse_requirements(&source);
     assert!(errors.is_empty(), "{errors:#?}");
-    let bound = requirements.into_iter().map(|requirement| {
+    let bound = file.requirements.into_iter().map(|requirement| {
         let bound = bind(&requirement.formula, system, View::Scan).unwrap_or_else(|e| panic!("{e:#?}"));
         (requirement, bound)
     });
     let bound: Vec<_> = bound.collect();
-    let options = Options { view: View::Scan, fair: false, budget: Budget::default() };
-    check(system, &bound, options, &mut |_| None)
+    check(system, &bound, Options::default(), &mut |_| None)
 }
 
 /// Each requirement by name, with its verdict in one word.

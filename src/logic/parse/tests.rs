@@ -97,8 +97,9 @@ fn huge_formulas_are_refused_and_large_ones_are_not() {
 fn a_file_gives_its_requirements_and_all_its_errors() {
     let text = "// first\nrequirement one \"it says; this\": AG a;\nrequirement two: a &;\nrequire three: b;\n\
                 requirement One: (* again *) b;\nrequirement four \"x\" c";
-    let (requirements, diagnostics) = parse_requirements(&Source::new("r.req", text));
-    let read: Vec<_> = requirements.iter().map(|r| (r.name.as_str(), r.sentence.as_deref(), r.text.as_str())).collect();
+    let (file, diagnostics) = parse_requirements(&Source::new("r.req", text));
+    let read: Vec<_> =
+        file.requirements.iter().map(|r| (r.name.as_str(), r.sentence.as_deref(), r.text.as_str())).collect();
     assert_eq!(read, [("one", Some("it says; this"), "AG a"), ("One", None, "b")]);
     let source = Source::new("r.req", text);
     let errors: Vec<_> = diagnostics.iter().map(|d| (source.line_of(d.span().start), d.message.as_str())).collect();

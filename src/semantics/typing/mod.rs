@@ -19,6 +19,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{self, Instruction, Name, Operation};
 
+pub use standard::is_standard;
+
 /// A typed instruction list.
 pub struct Typed {
     pub body: Vec<Statement>,

@@ -248,9 +248,15 @@ impl Typing<'_> {
         let own = context.project.unit.pous.iter().map(|pou| pou.name.text.as_str());
         let message = format!("`{}` is neither an operator nor a function that is known", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownOperator, name.span, message);
-        let position = self.diagnostics.iter().filter(|d| d.code == Code::UnknownOperator).count();
+        let position = self.diagnostics.len();
         self.diagnostics.push(diagnostic.suggest_at(position, &name.text, WORDS.iter().copied().chain(own)));
     }
+}
+
+/// Whether this is the name of a standard function that is modelled.
+pub fn is_standard(name: &str) -> bool {
+    let word = key(name);
+    conversion(&word).is_some() || signature(&word).is_some()
 }
 
 /// The words an instruction can begin with.

@@ -128,7 +128,10 @@ impl Component {
     ) {
         let ids = |list: &[usize]| list.iter().map(|&place| places[place]).collect::<Vec<_>>();
         for (position, transition) in self.transitions.iter().enumerate() {
-            let tests = transition.tests.iter().map(|&(output, value)| weaver.variable(output).place(value == 1));
+            let tests = transition.tests.iter().flat_map(|&(output, pattern)| {
+                let bits = weaver.variable(output).iter().enumerate();
+                bits.map(move |(position, bit)| bit.place(pattern >> position & 1 == 1))
+            });
             let read = ids(&transition.read).into_iter().chain(blocking).chain(tests).collect();
             let arcs = Arcs { consume: ids(&transition.consume), produce: ids(&transition.produce), read };
             let role = TransitionRole::Plant { component: index, transition: position };

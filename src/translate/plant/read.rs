@@ -7,11 +7,11 @@ use petgraph::unionfind::UnionFind;
 use super::component::{Component, PlantPlace, PlantTransition};
 use super::{Plant, markings};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::FlatProgram;
+use crate::flat::{FlatProgram, Variable};
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
 use crate::source::Span;
-use crate::translate::valuation;
+use crate::translate::valuation::{self, Assignment, Value};
 
 /// What a place of the net is to the program.
 enum Meaning {
@@ -102,7 +102,7 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
         }
     };
     let mut values: Vec<(VarId, u64)> = Vec::new();
-    for (written, value) in assignments {
+    for Assignment { text, variable: written, value } in assignments {
         let visible = || program.with_role(Role::Input).chain(program.with_role(Role::Output));
         let Some(variable) = program.find(written) else {
             let message = format!("the program `{}` has no input or output `{written}`", program.name);
@@ -124,7 +124,18 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
             let message = "a place cannot stand for inputs and outputs at once".to_owned();
             return Err(unfit(message).help("give the inputs a place, and read the outputs by another"));
         }
-        values.push((variable, u64::from(value)));
+        match pattern(program.variable(variable), value) {
+            Some(pattern) => values.push((variable, pattern)),
+            None => {
+                let help = if program.variable(variable).ty.is_bool() {
+                    "name the place like `S1=1,O1=0`, or without `=` if it is internal".to_owned()
+                } else {
+                    let ty = program.variable(variable).ty;
+                    format!("`{written}` is of type {ty}: its values are {} to {}", ty.least(), ty.greatest())
+                };
+                return Err(unfit(format!("`{text}` gives no input or output a value")).help(help));
+            }
+        }
     }
     if values.first().is_none_or(|&(first, _)| program.variable(first).role == Role::Input) {
         return Ok(Meaning::Own(values));
@@ -135,6 +146,18 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
         return Err(unfit(message).help("leave it unmarked: the program decides when it is marked"));
     }
     Ok(Meaning::Test(values))
+}
+
+/// The pattern of a value, if it is one of the variable.
+fn pattern(variable: &Variable, value: Value) -> Option<u64> {
+    let ty = variable.ty;
+    let number = match value {
+        Value::Truth(truth) => Some(i128::from(truth)).filter(|_| ty.is_bool())?,
+        Value::Number(number) => Some(number).filter(|&number| ty.holds(number))?,
+    };
+    let pattern = ty.pattern(number);
+    // Bits that are not stored are 0.
+    (pattern.checked_shr(variable.bits).unwrap_or(0) == 0).then_some(pattern)
 }
 
 /// The names a component gives to nodes of the system net.

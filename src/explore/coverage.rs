@@ -1,0 +1,80 @@
+//! Which lines of a program are executed in some scan.
+
+use std::collections::BTreeSet;
+
+use fixedbitset::FixedBitSet;
+use rayon::prelude::*;
+
+use super::graph::Graph;
+use super::scan_space::{ScanSpace, ScanState};
+use crate::flat::{Condition, FlatProgram, Instruction};
+
+/// States looked at one after another before all are looked at: mostly every line is seen soon.
+const FIRST: usize = 256;
+
+/// The lines, from 0, that control could come to but never does. The graph must be a complete one of the space.
+#[must_use]
+pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph) -> Vec<usize> {
+    let program = &space.system().program;
+    let possible = possible_lines(program);
+    let has_choice = |line: usize| {
+        let code = program.code.get(line).map(|code| code.instruction);
+        matches!(code, Some(Instruction::Jump { condition, .. }) if condition != Condition::Always)
+    };
+    if !possible.ones().any(has_choice) {
+        return Vec::new();
+    }
+    let starts = starts(graph);
+    let mut executed = FixedBitSet::with_capacity(program.end() + 1);
+    let (first, rest) = starts.split_at(starts.len().min(FIRST));
+    for state in first {
+        execute(space, &space.state(*state, graph), &mut executed);
+        if possible.is_subset(&executed) {
+            return Vec::new();
+        }
+    }
+    let none = || FixedBitSet::with_capacity(program.end() + 1);
+    let add = |mut executed: FixedBitSet, state: &Option<u32>| {
+        execute(space, &space.state(*state, graph), &mut executed);
+        executed
+    };
+    executed.union_with(&rest.par_iter().fold(none, add).reduce(none, |a, b| &a | &b));
+    possible.difference(&executed).collect()
+}
+
+/// States whose scans are all there are: power-on, which is `None`, and the first state of each row.
+fn starts(graph: &Graph) -> Vec<Option<u32>> {
+    let mut rows = BTreeSet::new();
+    let firsts = graph.ids().filter(|&id| graph.row_of(id).is_some_and(|row| rows.insert(row))).map(Some);
+    std::iter::once(None).chain(firsts).collect()
+}
+
+/// Executes every scan from a state, and marks the lines.
+fn execute(space: &ScanSpace<'_>, from: &ScanState, executed: &mut FixedBitSet) {
+    space.beginnings(from, &mut |machine, _| {
+        machine.begin_scan();
+        while !machine.at_end() {
+            executed.insert(machine.line());
+            machine.step();
+        }
+        executed.insert(machine.line());
+    });
+}
+
+/// The lines and the end, as far as control can come to them by the jumps there are.
+fn possible_lines(program: &FlatProgram) -> FixedBitSet {
+    let mut possible = FixedBitSet::with_capacity(program.end() + 1);
+    let mut work = vec![0];
+    while let Some(line) = work.pop() {
+        if possible.put(line) {
+            continue;
+        }
+        match program.code.get(line).map(|code| code.instruction) {
+            Some(Instruction::Jump { condition: Condition::Always, target }) => work.push(target),
+            Some(Instruction::Jump { target, .. }) => work.extend([target, line + 1]),
+            Some(_) => work.push(line + 1),
+            None => {}
+        }
+    }
+    possible
+}

@@ -1,0 +1,98 @@
+//! The inputs that no plant drives: the values that each scan may read, one combination after another.
+
+use crate::interpret::Machine;
+use crate::semantics::VarId;
+use crate::translate::{Domain, System};
+
+/// States have at most this many successors for their plant's marking; more would take minutes and gigabytes for one state.
+pub const MAX_FAN_OUT: u128 = 1 << 24;
+
+/// The free inputs of a system, with their values.
+pub struct FreeInputs {
+    inputs: Vec<FreeInput>,
+}
+
+/// A free input and what it may be.
+struct FreeInput {
+    variable: VarId,
+    name: String,
+    domain: Domain,
+    /// The values as patterns, in the order in which they are tried: 0 comes before numbers below 0.
+    patterns: Vec<u64>,
+}
+
+impl FreeInputs {
+    /// The free inputs of a system.
+    pub fn new(system: &System) -> Self {
+        let free = system.free_inputs().map(|variable| FreeInput {
+            variable,
+            name: system.program.variable(variable).name.clone(),
+            domain: system.domain(variable),
+            patterns: Vec::new(),
+        });
+        let mut free = Self { inputs: free.collect() };
+        // Beyond that, nobody will ask for them.
+        if free.combinations() <= MAX_FAN_OUT {
+            for input in &mut free.inputs {
+                input.patterns = input.domain.patterns().collect();
+                input.patterns.sort_unstable();
+            }
+        }
+        free
+    }
+
+    /// How many combinations of values there are.
+    pub fn combinations(&self) -> u128 {
+        self.inputs.iter().fold(1, |product, input| product.saturating_mul(input.domain.size()))
+    }
+
+    /// Why there are too many combinations to try, and what to do about it.
+    pub fn refusal(&self) -> Option<String> {
+        if self.combinations() <= MAX_FAN_OUT {
+            return None;
+        }
+        let mut wide: Vec<&FreeInput> = self.inputs.iter().collect();
+        // The widest first; those of one size stay in their order.
+        wide.sort_by_key(|input| std::cmp::Reverse(input.domain.size()));
+        let values = |input: &&FreeInput| format!("`{}` ({} values)", input.name, input.domain.size());
+        let mut names: Vec<String> = wide.iter().take(4).map(values).collect();
+        if wide.len() > 4 {
+            names.push(format!("{} more", wide.len() - 4));
+        }
+        let widest = wide.first().map_or("x", |input| input.name.as_str());
+        let advice = if wide.first().is_some_and(|input| input.domain.size() > 2) {
+            format!("say which values matter, as with `--domain '{widest}: 0..100'`, or what a plant can give them")
+        } else {
+            "say with a plant what cannot happen".to_owned()
+        };
+        let names = names.join(", ");
+        Some(format!("a scan can read more than {MAX_FAN_OUT} combinations of values of the inputs {names}: {advice}"))
+    }
+
+    /// Calls `each` once for each combination, the machine having these values. The last input changes fastest.
+    pub fn for_each<'p>(&self, machine: &mut Machine<'p>, each: &mut dyn FnMut(&mut Machine<'p>, &Setting<'_>)) {
+        let mut digits = vec![0; self.inputs.len()];
+        loop {
+            each(machine, &Setting { inputs: self, digits: &digits });
+            let more = |(&digit, input): (&usize, &FreeInput)| digit + 1 < input.patterns.len();
+            let Some(turn) = digits.iter().zip(&self.inputs).rposition(more) else { return };
+            digits[turn] += 1;
+            digits[turn + 1..].fill(0);
+        }
+    }
+}
+
+/// One combination of values.
+pub struct Setting<'f> {
+    inputs: &'f FreeInputs,
+    digits: &'f [usize],
+}
+
+impl Setting<'_> {
+    /// Gives the inputs of a machine these values.
+    pub fn copy_to(&self, machine: &mut Machine<'_>) {
+        for (input, &digit) in self.inputs.inputs.iter().zip(self.digits) {
+            machine.set(input.variable, input.patterns[digit]);
+        }
+    }
+}

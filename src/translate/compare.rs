@@ -1,0 +1,66 @@
+//! `GT x`, `GE x`, `EQ x`, `NE x`, `LE x`, `LT x`: from the highest bit down to the first that differs.
+
+use std::cmp::Ordering;
+
+use super::subnet::Subnet;
+use super::walk::Stage;
+use super::weaver::{Bit, Change, VALUES};
+use super::wire::{Wire, with};
+use crate::flat::Function;
+use crate::semantics::Type;
+
+/// Whether an ordering of current result and operand makes the comparison true.
+fn truth(function: Function, ordering: Ordering) -> bool {
+    match function {
+        Function::Gt => ordering.is_gt(),
+        Function::Ge => ordering.is_ge(),
+        Function::Eq => ordering.is_eq(),
+        Function::Ne => ordering.is_ne(),
+        Function::Le => ordering.is_le(),
+        _ => ordering.is_lt(),
+    }
+}
+
+/// The alternatives of a bit and a wire, each with how they are ordered; a sign bit is ordered the other way round.
+pub fn alternatives(bit: Bit, wire: &Wire, sign: bool) -> Vec<(Vec<Change>, Ordering)> {
+    let mut alternatives = Vec::with_capacity(2 * wire.0.len());
+    for own in VALUES {
+        for (value, given) in &wire.0 {
+            let ordering = if sign { value.cmp(&own) } else { own.cmp(value) };
+            alternatives.push((with((bit, own, own), given), ordering));
+        }
+    }
+    alternatives
+}
+
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum State {
+    /// All bits above this one are equal.
+    Equal(usize),
+    /// The answer is known.
+    Known(bool),
+    /// The answer is in the current result.
+    Done,
+}
+
+pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, wires: &[Wire]) {
+    let (here, next, result) = (subnet.here(), subnet.next(), subnet.result(ty.width));
+    subnet.walk(here, State::Equal(wires.len() - 1), |_, state| match *state {
+        State::Equal(0) => {
+            // The lowest bit is that of the answer too.
+            let mut branches = alternatives(result[0], &wires[0], ty.is_signed() && wires.len() == 1);
+            branches.iter_mut().for_each(|(changes, ordering)| changes[0].2 = truth(function, *ordering));
+            Stage::Branch(branches.into_iter().map(|(changes, _)| (changes, State::Done)).collect())
+        }
+        State::Equal(bit) => {
+            let branches = alternatives(result[bit], &wires[bit], ty.is_signed() && bit + 1 == wires.len());
+            let state = |ordering: Ordering| match ordering {
+                Ordering::Equal => State::Equal(bit - 1),
+                _ => State::Known(truth(function, ordering)),
+            };
+            Stage::Branch(branches.into_iter().map(|(changes, ordering)| (changes, state(ordering))).collect())
+        }
+        State::Known(answer) => Stage::Branch(VALUES.map(|old| (vec![(result[0], old, answer)], State::Done)).into()),
+        State::Done => Stage::Leave(next),
+    });
+}

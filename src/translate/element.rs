@@ -1,0 +1,47 @@
+//! Elements of arrays: every transition on an element reads the bits of the index that say which it is.
+
+use super::subnet::Subnet;
+use super::weaver::{Bit, Change, VALUES};
+use super::wire::{Wire, with};
+use crate::flat::{Element, Target};
+use crate::semantics::VarId;
+
+/// The elements that the index can choose, each with the bits of the index that choose it.
+fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Vec<Change>)> {
+    let index = subnet.variable(element.index);
+    let value = |number: usize, bit: usize| number.checked_shr(bit as u32).unwrap_or(0) & 1 == 1;
+    let can_be = |number: &usize| number.checked_shr(index.len() as u32).unwrap_or(0) == 0;
+    let choice = |number: usize| {
+        let given = index.iter().enumerate().map(|(bit, &place)| (place, value(number, bit), value(number, bit)));
+        (element.at(number), given.collect())
+    };
+    (0..element.length).filter(can_be).map(choice).collect()
+}
+
+/// A bit of the element that the index chooses.
+pub fn wire(subnet: &Subnet<'_>, element: Element, bit: u32) -> Wire {
+    let mut readings = Vec::new();
+    for (variable, given) in choices(subnet, element) {
+        match subnet.variable(variable).get(bit as usize) {
+            Some(&place) => readings.extend(VALUES.map(|value| (value, with((place, value, value), &given)))),
+            None => readings.push((false, given)),
+        }
+    }
+    Wire(readings)
+}
+
+/// The bits that a target can be, for each position: each with the bits of the index that choose it. One that is not stored
+/// is none.
+pub fn targets(subnet: &Subnet<'_>, target: Target) -> Vec<Vec<(Option<Bit>, Vec<Change>)>> {
+    let choices = match target {
+        Target::Variable(variable) => vec![(variable, vec![])],
+        Target::Element(element) => choices(subnet, element),
+    };
+    let most = choices.iter().map(|(variable, _)| subnet.variable(*variable).len()).max().unwrap_or(0);
+    let at = |position: usize| {
+        let bits =
+            choices.iter().map(|(variable, given)| (subnet.variable(*variable).get(position).copied(), given.clone()));
+        bits.collect()
+    };
+    (0..most).map(at).collect()
+}

@@ -1,0 +1,80 @@
+//! The bits of an operand, each as the ways in which it can have a value.
+
+use super::element;
+use super::subnet::{Step, Subnet};
+use super::weaver::{Bit, Change, VALUES};
+use crate::flat::{Operand, Target};
+use crate::semantics::Type;
+
+/// A bit that is read: what it can be, each time with the bits that must have the values they then have.
+#[derive(Clone, Debug)]
+pub struct Wire(pub Vec<(bool, Vec<Change>)>);
+
+impl Wire {
+    /// A bit that is known.
+    pub fn fixed(value: bool) -> Self {
+        Self(vec![(value, vec![])])
+    }
+
+    /// A bit of the net.
+    pub fn of(bit: Bit) -> Self {
+        Self(VALUES.map(|value| (value, vec![(bit, value, value)])).into())
+    }
+
+    /// The value, if it is known.
+    pub fn known(&self) -> Option<bool> {
+        match self.0.as_slice() {
+            [(value, given)] if given.is_empty() => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// The bit of the other value.
+    pub fn complement(mut self) -> Self {
+        self.0.iter_mut().for_each(|(value, _)| *value = !*value);
+        self
+    }
+
+    /// The step that gives a bit this value.
+    pub fn assign(&self, target: Bit) -> Step {
+        let mut step = Vec::with_capacity(2 * self.0.len());
+        for (value, given) in &self.0 {
+            for old in VALUES {
+                step.push(with((target, old, *value), given));
+            }
+        }
+        step
+    }
+
+    /// What a state goes on to for each value.
+    pub fn branch<S>(&self, to: impl Fn(bool) -> S) -> Vec<(Vec<Change>, S)> {
+        self.0.iter().map(|(value, given)| (given.clone(), to(*value))).collect()
+    }
+}
+
+/// A change under conditions.
+pub fn with(change: Change, given: &[Change]) -> Vec<Change> {
+    let mut changes = Vec::with_capacity(1 + given.len());
+    changes.push(change);
+    changes.extend_from_slice(given);
+    changes
+}
+
+impl Subnet<'_> {
+    /// The bits of an operand of a type, complemented if `negated`.
+    pub fn wires(&self, ty: Type, negated: bool, operand: Operand) -> Vec<Wire> {
+        let wires = (0..ty.width).map(|bit| self.wire(operand, bit));
+        wires.map(|wire| if negated { wire.complement() } else { wire }).collect()
+    }
+
+    /// A bit of an operand.
+    pub fn wire(&self, operand: Operand, bit: u32) -> Wire {
+        match operand {
+            Operand::Constant(pattern) => Wire::fixed(pattern >> bit & 1 == 1),
+            Operand::Place(Target::Variable(variable)) => {
+                self.variable(variable).get(bit as usize).map_or(Wire::fixed(false), |&bit| Wire::of(bit))
+            }
+            Operand::Place(Target::Element(element)) => element::wire(self, element, bit),
+        }
+    }
+}
