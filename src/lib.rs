@@ -50,3 +50,4 @@ pub mod syntax;
 pub mod translate;
 pub mod verdict;
 pub mod witness;
+mod xml;

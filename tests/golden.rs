@@ -6,6 +6,7 @@ mod support;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::{env, fs};
 
 use serde_json::Value;
@@ -143,4 +144,48 @@ fn every_program_is_accepted_or_refused_with_a_place() {
         if is_accepted(&program) { accepted += 1 } else { refused += 1 }
     }
     eprintln!("{accepted} accepted, {refused} refused");
+}
+
+/// The files below a folder that are projects of PLCopen, in order.
+fn projects(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "xml") {
+                let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
+                if text.contains("<project ") {
+                    found.push(path);
+                }
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn every_project_is_accepted_or_refused_with_a_place() {
+    let archive = env::var_os("PETRIL_DATA").map(|data| Path::new(&data).join("plcopen/projects.tar.xz"));
+    let Some(archive) = archive.filter(|archive| archive.exists()) else {
+        eprintln!("there are no projects: nothing is tested");
+        return;
+    };
+    let folder = tempfile::TempDir::new().unwrap();
+    let tar = Command::new("tar").arg("xJf").arg(&archive).arg("-C").arg(folder.path()).status();
+    if !tar.is_ok_and(|status| status.success()) {
+        eprintln!("the projects cannot be unpacked: nothing is tested");
+        return;
+    }
+    let projects = projects(folder.path());
+    assert!(!projects.is_empty());
+    let accepted = projects.iter().filter(|project| is_accepted(project)).count();
+    eprintln!("{accepted} of {} projects accepted", projects.len());
+    // One of them shows the same block in each of the five languages.
+    let first_steps = projects.iter().find(|path| path.ends_with("first_steps/plc.xml")).unwrap();
+    let run = run(first_steps, "flat", &["--pou", "CounterIL"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(run.stdout.lines().count(), 8, "{}", run.stdout);
 }

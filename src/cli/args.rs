@@ -68,9 +68,12 @@ A requirement file:
   requirement both_hands \"The press closes only while both buttons are pressed\":
       AG (Down -> Left & Right);")]
 pub struct Check {
-    /// The program (Instruction List).
-    #[arg(value_name = "PROGRAM.il")]
+    /// The program: Instruction List, or a PLCopen project in XML.
+    #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
+    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
+    #[arg(long, value_name = "NAME")]
+    pub pou: Option<String>,
     /// A plant: a safe net (.net or .pnml) whose places named like `S1=1,O1=0` drive inputs. Inputs that no plant drives
     /// are free. May be given several times.
     #[arg(long, value_name = "NET")]
@@ -138,9 +141,12 @@ pub enum View {
 /// `petril translate`
 #[derive(Debug, clap::Args)]
 pub struct Translate {
-    /// The program (Instruction List).
-    #[arg(value_name = "PROGRAM.il")]
+    /// The program: Instruction List, or a PLCopen project in XML.
+    #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
+    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
+    #[arg(long, value_name = "NAME")]
+    pub pou: Option<String>,
     /// A plant, as for `petril check`.
     #[arg(long, value_name = "NET")]
     pub plant: Vec<PathBuf>,
@@ -155,9 +161,12 @@ pub struct Translate {
 /// `petril flat`
 #[derive(Debug, clap::Args)]
 pub struct Flat {
-    /// The program (Instruction List).
-    #[arg(value_name = "PROGRAM.il")]
+    /// The program: Instruction List, or a PLCopen project in XML.
+    #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
+    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
+    #[arg(long, value_name = "NAME")]
+    pub pou: Option<String>,
     /// How often scans come.
     #[command(flatten)]
     pub timing: Timing,
@@ -166,9 +175,12 @@ pub struct Flat {
 /// `petril simulate`
 #[derive(Debug, clap::Args)]
 pub struct Simulate {
-    /// The program (Instruction List).
-    #[arg(value_name = "PROGRAM.il")]
+    /// The program: Instruction List, or a PLCopen project in XML.
+    #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
+    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
+    #[arg(long, value_name = "NAME")]
+    pub pou: Option<String>,
     /// Values of the inputs (CSV): names in the first row, then one row a scan. Inputs without a column keep their initial
     /// value.
     #[arg(long, value_name = "CSV")]
@@ -202,7 +214,7 @@ Examples:
   petril draw press.il --line 3 -o line3.svg")]
 pub struct Draw {
     /// A program; with --line, the subnet of one of its lines is drawn.
-    #[arg(value_name = "PROGRAM.il", required_unless_present = "instruction")]
+    #[arg(value_name = "PROGRAM", required_unless_present = "instruction")]
     pub program: Option<PathBuf>,
     /// The line of the program's flat code to draw, as `petril flat` numbers it.
     #[arg(long, value_name = "N", requires = "program")]

@@ -25,7 +25,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     }
     let timing = arguments.meaning.timing;
     let (Program { flat: program, source }, plant) =
-        input::parts(&arguments.program, &arguments.plant, timing, console)?;
+        input::parts(&arguments.program, arguments.pou.as_deref(), &arguments.plant, timing, console)?;
     let mut asked = Asked::read(arguments, console)?;
     let domains = asked.domains(&program, &plant);
     let mut system = System::with_domains(program, plant, domains);

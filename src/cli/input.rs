@@ -62,11 +62,11 @@ pub struct Program {
     pub source: Source,
 }
 
-/// Reads a program. Its diagnostics are printed, warnings too.
-pub fn program(path: &Path, timing: Timing, console: &Console) -> Result<Program, Failure> {
+/// Reads a program, or the unit of this name. Its diagnostics are printed, warnings too.
+pub fn program(path: &Path, pou: Option<&str>, timing: Timing, console: &Console) -> Result<Program, Failure> {
     let source = source(path, MAX_TEXT, console)?;
     let (unit, mut diagnostics) = syntax::parse(&source);
-    let (program, more) = semantics::check(&unit, !any_error(&diagnostics));
+    let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), pou);
     diagnostics.extend(more);
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
@@ -98,22 +98,24 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
 /// A program in its plants, free inputs having any value.
 pub fn system<P: AsRef<Path>>(
     path: &Path,
+    pou: Option<&str>,
     plants: &[P],
     timing: Timing,
     console: &Console,
 ) -> Result<(System, Source), Failure> {
-    let (program, plant) = parts(path, plants, timing, console)?;
+    let (program, plant) = parts(path, pou, plants, timing, console)?;
     Ok((System::new(program.flat, plant), program.source))
 }
 
 /// A program and its plants.
 pub fn parts<P: AsRef<Path>>(
     path: &Path,
+    pou: Option<&str>,
     plants: &[P],
     timing: Timing,
     console: &Console,
 ) -> Result<(Program, Plant), Failure> {
-    let program = program(path, timing, console);
+    let program = program(path, pou, timing, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
     let program = program?;

@@ -60,6 +60,8 @@ codes! {
     FileTooLarge = "E0110",
     /// The file declares several programs.
     SeveralPrograms = "E0111",
+    /// A project in XML is not what its format asks for.
+    XmlSyntax = "E0112",
 
     /// A name is declared twice.
     NameDeclaredTwice = "E0201",

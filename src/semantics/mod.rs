@@ -12,6 +12,7 @@ mod function;
 mod inference;
 mod interval;
 mod library;
+mod needed;
 mod program;
 mod project;
 mod shape;
@@ -90,8 +91,28 @@ const RULES: &[Rule] = &[
 /// reading the text, is an error; `clean` says that reading found none.
 #[must_use]
 pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
+    check_unit(unit, clean, None)
+}
+
+/// As [`check`], but for the program, function block or function of this name, where one is given. What that does not need
+/// is not looked at.
+#[must_use]
+pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Program>, Vec<Diagnostic>) {
+    let needed;
+    let unit = match name {
+        Some(name) if unit.pous.iter().all(|pou| !pou.name.is(name)) => return (None, vec![no_unit(unit, name)]),
+        Some(name) => {
+            needed = needed::by(unit, name);
+            &needed
+        }
+        None => unit,
+    };
     let (project, mut diagnostics, mut of_units) = Project::of(unit);
-    let Some(entry) = entry(&project, &mut diagnostics) else { return (None, diagnostics) };
+    let entry = match name {
+        Some(name) => project.find(name),
+        None => entry(&project, &mut diagnostics),
+    };
+    let Some(entry) = entry else { return (None, diagnostics) };
     let needed = project.reachable(entry, &mut diagnostics);
     let mut pous: Vec<Pou> = project.pous.iter().enumerate().map(|(i, pou)| empty(&project, PouId(i), pou)).collect();
     for &id in &needed {
@@ -145,6 +166,14 @@ fn is_about_use(code: Code) -> bool {
     )
 }
 
+/// No unit of the file has the name that was asked for.
+fn no_unit(unit: &Unit, name: &str) -> Diagnostic {
+    let first = unit.pous.first().map_or(Span::default(), |pou| pou.name.span);
+    let names = unit.pous.iter().map(|pou| pou.name.text.as_str());
+    let message = format!("there is no program, function block or function `{name}` in this file");
+    Diagnostic::new(Code::NameNotDeclared, first, message).here("the first one is here").suggest(name, names)
+}
+
 /// The one PROGRAM of the file; where there is none, the last function block or function that no other calls.
 fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<PouId> {
     let own = || project.unit.pous.iter().enumerate().map(|(i, pou)| (PouId(i), pou));
@@ -153,7 +182,7 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
         diagnostics.extend(programs.map(|(_, second)| {
             Diagnostic::new(Code::SeveralPrograms, second.name.span, "this file declares a second program")
                 .also(program.name.span, "the first is here")
-                .help("put each program in a file of its own")
+                .help("name the one to check by `--pou`, or put each program in a file of its own")
         }));
         return Some(id);
     }
@@ -169,6 +198,11 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
 }
 
 fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
+    if language.is_empty() {
+        let message = format!("`{}` has no body", pou.name.text);
+        return Diagnostic::new(Code::OtherLanguage, span, message)
+            .help("what it does is not in this file: put its instruction list there");
+    }
     let message = format!("`{}` is written in {language}, not in Instruction List", pou.name.text);
     let help = match language {
         "Structured Text" => "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`",

@@ -4,18 +4,19 @@
 //! end an instruction, so the line ends inside it become blanks too. Byte offsets stay as they are.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{Source, Span};
+use crate::source::Span;
 
-/// The text with every comment replaced by as many blanks, and a diagnostic for a comment that is never closed.
-pub fn blank(source: &Source) -> (String, Option<Diagnostic>) {
-    let bytes = source.text().as_bytes();
+/// The text with every comment replaced by as many blanks, and a diagnostic for a comment that is never closed. `start` is
+/// the text's offset in its file.
+pub fn blank(text: &str, start: usize) -> (String, Option<Diagnostic>) {
+    let bytes = text.as_bytes();
     let mut blanked = bytes.to_vec();
     let mut unclosed = None;
     let mut at = 0;
     while at < bytes.len() {
         let end = match &bytes[at..] {
             [b'(', b'*', ..] => block_end(bytes, at).unwrap_or_else(|| {
-                let span = Span::new(at, at + 2);
+                let span = Span::new(start + at, start + at + 2);
                 let holds_another = bytes[at + 2..].windows(2).any(|pair| pair == b"(*");
                 let help = if holds_another {
                     "close it with `*)`; comments nest, so each `(*` inside it needs its own"
@@ -73,7 +74,7 @@ mod tests {
     use super::*;
 
     fn blanked(text: &str) -> String {
-        let (out, error) = blank(&Source::new("x", text));
+        let (out, error) = blank(text, 0);
         assert!(error.is_none(), "{error:?}");
         out
     }
@@ -96,7 +97,7 @@ mod tests {
 
     #[test]
     fn an_open_comment_is_reported_where_it_opens() {
-        let (text, error) = blank(&Source::new("x", "LD a\n(* (* *) ST b"));
+        let (text, error) = blank("LD a\n(* (* *) ST b", 0);
         assert_eq!(text, "LD a\n             ");
         assert_eq!(error.map(|d| (d.code, d.span())), Some((Code::CommentNotClosed, Span::new(5, 7))));
     }

@@ -1,10 +1,11 @@
-//! Text to syntax tree and back. The grammar is `grammar/il.pest`; nothing outside this module knows pest reads it.
+//! Text to syntax tree and back, and PLCopen's projects in XML to the same tree. The grammar is `grammar/il.pest`; nothing outside this module knows pest reads it.
 
 pub mod ast;
 mod comments;
 mod consume;
 mod expected;
 mod parse;
+mod plcopen;
 mod print;
 
 pub use parse::parse;

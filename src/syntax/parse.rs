@@ -4,7 +4,7 @@ use pest::Parser;
 use pest_derive::Parser;
 
 use super::ast::Unit;
-use super::{comments, consume, expected};
+use super::{comments, consume, expected, plcopen};
 use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::source::{Source, Span};
 
@@ -12,10 +12,14 @@ use crate::source::{Source, Span};
 #[grammar = "../grammar/il.pest"]
 pub(super) struct IlParser;
 
-/// Reads a text. What cannot be read is reported and left out of the tree, so that the static rules can look at the rest.
+/// Reads a text, or a PLCopen project in XML. What cannot be read is reported and left out of the tree, so that the static
+/// rules can look at the rest.
 #[must_use]
 pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
-    let (text, unclosed) = comments::blank(source);
+    if plcopen::is_xml(source) {
+        return plcopen::read(source);
+    }
+    let (text, unclosed) = comments::blank(source.text(), 0);
     if let Some(unclosed) = unclosed {
         // What an open comment hides is missing everywhere: no more than its opening is worth telling.
         return (Unit::default(), vec![unclosed]);

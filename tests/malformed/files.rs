@@ -114,7 +114,7 @@ fn arguments_that_ask_for_nothing_are_refused() {
     let lines: [(&[&str], &str); 12] = [
         (&[], "Usage: petril"),
         (&["frobnicate"], "unrecognized subcommand"),
-        (&["check"], "PROGRAM.il"),
+        (&["check"], "<PROGRAM"),
         (&["check", "p.il", "-r"], "a value is required"),
         (&["check", "p.il", "--view", "plan"], "possible values: scan, transition"),
         (&["check", "p.il", "--fair"], "--fair is for `--view transition`"),
@@ -122,7 +122,7 @@ fn arguments_that_ask_for_nothing_are_refused() {
         (&["check", "p.il", "--timeout=-1"], "--timeout"),
         (&["check", "p.il", "--timeout", "NaN"], "--timeout"),
         (&["translate", "p.il"], "--output"),
-        (&["draw", "-o", "x.svg"], "PROGRAM.il"),
+        (&["draw", "-o", "x.svg"], "<PROGRAM"),
         (&["net", "info", "p.il"], ".net or .pnml"),
     ];
     for (line, word) in lines {

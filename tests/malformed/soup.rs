@@ -11,6 +11,38 @@ use proptest::prelude::*;
 
 use super::support;
 
+/// Whole elements most of the time, so that some documents are well-formed.
+const PROJECT: &[&str] = &[
+    "<pou name='f' pouType='function'><interface><returnType><INT/></returnType></interface><body><IL>LD 1\nST f</IL></body></pou>",
+    "<pou name='b' pouType='functionBlock'><body><ST>x</ST></body></pou>",
+    "<body><IL>LD a\nST &lt;<p>ä</p><![CDATA[(*]]></IL></body>",
+    "<body><IL><simpleValue value='1'/>LD a</IL></body>",
+    "</interface><body><IL>END_VAR\nLD 'x</IL></body></pou><pou pouType='program' name='p'><interface>",
+    "</interface><body><IL/></body></pou><pou pouType='program' name='q'><interface>",
+    "<inputVars retain='true'><variable name='i' address='%IX0.0'><type><BOOL/></type></variable></inputVars>",
+    "<outputVars constant='true'><variable name='ö'><type><derived name='b'/></type></variable></outputVars>",
+    "<globalVars><variable name='g'><type><array><dimension lower='1' upper='x'/><baseType><INT/></baseType></array></type>\
+     <initialValue><arrayValue><value repetitionValue='3'><simpleValue value='&quot;'/></value></arrayValue></initialValue>\
+     </variable></globalVars>",
+    "<localVars><variable name='s'><type><struct><variable name='m'><type><BOOL/></type></variable></struct></type>\
+     <initialValue><structValue><value member='m'><simpleValue value='TRUE'/></value></structValue></initialValue>\
+     </variable></localVars>",
+    "<localVars><variable name='e'><type><enum><values><value name='x'/></values></enum></type></variable></localVars>",
+    "<localVars><variable name='r'><type><subrangeSigned><range lower='5' upper='1'/><baseType><INT/></baseType>\
+     </subrangeSigned></type><initialValue><simpleValue value = '(x' /></initialValue></variable></localVars>",
+    "<dataType name='t'><baseType><derived name='t'/></baseType></dataType>",
+    "<configuration name='c'><task name='k' interval='x#'><pouInstance name='i' typeName='p'/></task></configuration>",
+    "<accessVars><accessVariable/></accessVars>",
+    "<actions><action name='a'/></actions>",
+    "<returnType/>",
+    "<interface>",
+    "</interface>",
+    "<!-- ä -->",
+    "&#1;",
+    "<",
+    "\n",
+];
+
 const PROGRAM: &[&str] = &[
     "PROGRAM ",
     "p",
@@ -181,6 +213,19 @@ proptest! {
             let system = System::new(flatten(&program), Plant::default());
             prop_assert!(system.net.initial_marking().marked().count() > 0);
         }
+    }
+
+    #[test]
+    fn of_projects(parts in soup(PROJECT), framed in any::<bool>()) {
+        let head = "<project><pou name='p' pouType='program'><interface><localVars><variable name='a'><type><BOOL/></type>\
+                    </variable></localVars>";
+        let tail = "</interface><body><IL>LD a</IL></body></pou></project>";
+        let source = Source::new("soup", if framed { format!("{head}{parts}{tail}") } else { format!("<project>{parts}") });
+        let (unit, mut diagnostics) = syntax::parse(&source);
+        let (program, more) = semantics::check(&unit, !any_error(&diagnostics));
+        diagnostics.extend(more);
+        are_printable(&diagnostics, &source)?;
+        prop_assert_eq!(program.is_none(), any_error(&diagnostics), "{:?}", diagnostics);
     }
 
     #[test]

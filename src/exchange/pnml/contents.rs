@@ -2,8 +2,9 @@
 
 use roxmltree::Node;
 
-use super::label::{Text, attribute, elements, number, required, tag, tag_span, text};
+use super::label::{number, required, text};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::xml::{Text, attribute, elements, tag, tag_span};
 
 /// Places or transitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,37 +4,7 @@ use roxmltree::Node;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-
-/// A text without outer blanks, and where it stands.
-#[derive(Clone, Debug)]
-pub struct Text {
-    pub text: String,
-    pub span: Span,
-}
-
-/// The children of an element that have a name in the PNML sense: no text, no comments.
-pub fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
-    node.children().filter(Node::is_element)
-}
-
-/// The start tag's name, without namespace.
-pub fn tag<'a>(node: Node<'a, '_>) -> &'a str {
-    node.tag_name().name()
-}
-
-/// Where an element's start tag begins: from `<` to behind the tag's name.
-pub fn tag_span(node: Node<'_, '_>) -> Span {
-    let start = node.range().start;
-    let name = node.document().input_text()[start..].find([' ', '\t', '\r', '\n', '/', '>']);
-    Span::new(start, start + name.unwrap_or(1))
-}
-
-/// An attribute.
-pub fn attribute(node: Node<'_, '_>, name: &str) -> Option<Text> {
-    let attribute = node.attribute_node(name)?;
-    let range = attribute.range_value();
-    Some(Text { text: attribute.value().trim().to_owned(), span: Span::new(range.start, range.end) })
-}
+use crate::xml::{Text, attribute, elements, tag, tag_span};
 
 /// An attribute that must be there.
 pub fn required(node: Node<'_, '_>, name: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<Text> {

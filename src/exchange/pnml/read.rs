@@ -5,12 +5,13 @@ use std::collections::HashSet;
 use roxmltree::{Document, Node};
 
 use super::contents::{Contents, Item, Kind};
-use super::label::{Text, attribute, elements, tag, tag_span, text};
+use super::label::text;
 use super::references::References;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, file_stem};
 use crate::net::Located;
-use crate::source::{Source, Span};
+use crate::source::Source;
+use crate::xml::{self, Text, attribute, elements, tag, tag_span};
 
 /// The type of place/transition nets.
 pub(super) const NET_TYPE: &str = "http://www.pnml.org/version-2009/grammar/ptnet";
@@ -22,7 +23,7 @@ pub(super) const NET_TYPE: &str = "http://www.pnml.org/version-2009/grammar/ptne
 /// XML that is not well-formed, documents with no net or several, ids that are given twice or to nobody, and what a safe
 /// place/transition net does not have: weights, several tokens, labels of other net types.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
-    let document = Document::parse(source.text()).map_err(|error| vec![malformed(&error, source)])?;
+    let document = xml::document(source, Code::NetSyntax, "PNML").map_err(|diagnostic| vec![diagnostic])?;
     let net = the_net(&document).map_err(|diagnostic| vec![*diagnostic])?;
     let mut diagnostics = Vec::new();
     let contents = Contents::of(net, &mut diagnostics);
@@ -36,31 +37,6 @@ pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     }
     diagnostics.sort_by_key(Diagnostic::span);
     Err(diagnostics)
-}
-
-fn malformed(error: &roxmltree::Error, source: &Source) -> Diagnostic {
-    use roxmltree::Error;
-    let at = match error {
-        // These have no position of their own.
-        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => source.text().trim_end().len(),
-        Error::DtdDetected => source.text().find("<!DOCTYPE").unwrap_or(0),
-        _ => offset(source, error.pos()).min(source.text().trim_end().len()),
-    };
-    if matches!(error, Error::DtdDetected) {
-        let span = Span::new(at, at + "<!DOCTYPE".len());
-        let diagnostic = Diagnostic::new(Code::NetSyntax, span, "a document type declaration is not part of PNML");
-        return diagnostic.help("remove the `<!DOCTYPE …>` with all its entities");
-    }
-    let text = error.to_string();
-    let text = text.replace(&format!(" at {}", error.pos()), "");
-    Diagnostic::new(Code::NetSyntax, Span::new(at, at), format!("this is no well-formed XML: {text}"))
-}
-
-/// The byte offset of a line and column, both counted from 1, the column in characters.
-fn offset(source: &Source, position: roxmltree::TextPos) -> usize {
-    let line = source.lines(position.row as usize, position.row as usize);
-    let text = source.slice(line);
-    line.start + text.char_indices().nth(position.col as usize - 1).map_or(text.len(), |(at, _)| at)
 }
 
 /// The one net of a document.

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::contents::{Contents, Item, Kind};
-use super::label::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::xml::Text;
 
 /// Whom an id means.
 pub struct References<'a> {

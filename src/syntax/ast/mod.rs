@@ -94,6 +94,7 @@ pub struct Pou {
     pub blocks: Vec<VarBlock>,
     /// The instruction list.
     pub body: Vec<Instruction>,
-    /// Where its body is in a language other than IL: the language, and where that shows.
+    /// Where its body is in a language other than IL: the language, and where that shows. The language is empty where there
+    /// is no body at all.
     pub foreign: Option<(String, Span)>,
 }

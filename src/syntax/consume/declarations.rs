@@ -140,7 +140,8 @@ fn range(pair: Pair<'_, Rule>) -> Option<Range> {
     Some(Range { lower: bounds.next()?, upper: bounds.next()? })
 }
 
-fn initial(pair: Pair<'_, Rule>) -> Option<Initial> {
+/// The pair of the rule `initial`.
+pub fn initial(pair: Pair<'_, Rule>) -> Option<Initial> {
     let span = span(&pair);
     let piece = pair.into_inner().next()?;
     let kind = match piece.as_rule() {

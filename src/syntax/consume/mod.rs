@@ -5,8 +5,10 @@ mod declarations;
 mod instructions;
 mod operands;
 mod other_language;
+mod pieces;
 
 use pest::iterators::Pair;
+pub use pieces::{Piece, pieces};
 
 use super::ast::{Name, Pou, PouKind, Unit, VarKind};
 use super::expected;

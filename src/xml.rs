@@ -1,0 +1,73 @@
+//! XML documents with positions: what the formats in XML share.
+
+use roxmltree::{Document, Node};
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::{Source, Span};
+
+/// A text without outer blanks, and where it stands.
+#[derive(Clone, Debug)]
+pub(crate) struct Text {
+    pub text: String,
+    pub span: Span,
+}
+
+/// The document of a text, or why it is none. Document type declarations, which could define entities of any size, are
+/// refused: no format that is read has them.
+pub(crate) fn document<'s>(source: &'s Source, code: Code, format: &str) -> Result<Document<'s>, Diagnostic> {
+    Document::parse(source.text()).map_err(|error| malformed(&error, source, code, format))
+}
+
+fn malformed(error: &roxmltree::Error, source: &Source, code: Code, format: &str) -> Diagnostic {
+    use roxmltree::Error;
+    let at = match error {
+        // These have no position of their own.
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => source.text().trim_end().len(),
+        Error::DtdDetected => source.text().find("<!DOCTYPE").unwrap_or(0),
+        _ => offset(source, error.pos()).min(source.text().trim_end().len()),
+    };
+    if matches!(error, Error::DtdDetected) {
+        let span = Span::new(at, at + "<!DOCTYPE".len());
+        let diagnostic = Diagnostic::new(code, span, format!("a document type declaration is not part of {format}"));
+        return diagnostic.help("remove the `<!DOCTYPE …>` with all its entities");
+    }
+    let text = error.to_string();
+    let text = text.replace(&format!(" at {}", error.pos()), "");
+    Diagnostic::new(code, Span::new(at, at), format!("this is no well-formed XML: {text}"))
+}
+
+/// The byte offset of a line and column, both counted from 1, the column in characters.
+fn offset(source: &Source, position: roxmltree::TextPos) -> usize {
+    let line = source.lines(position.row as usize, position.row as usize);
+    let text = source.slice(line);
+    line.start + text.char_indices().nth(position.col as usize - 1).map_or(text.len(), |(at, _)| at)
+}
+
+/// The children of an element that are elements: no text, no comments.
+pub(crate) fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.children().filter(Node::is_element)
+}
+
+/// The first child element of a name.
+pub(crate) fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    elements(node).find(|&child| tag(child) == name)
+}
+
+/// The start tag's name, without namespace.
+pub(crate) fn tag<'a>(node: Node<'a, '_>) -> &'a str {
+    node.tag_name().name()
+}
+
+/// Where an element's start tag begins: from `<` to behind the tag's name.
+pub(crate) fn tag_span(node: Node<'_, '_>) -> Span {
+    let start = node.range().start;
+    let name = node.document().input_text()[start..].find([' ', '\t', '\r', '\n', '/', '>']);
+    Span::new(start, start + name.unwrap_or(1))
+}
+
+/// An attribute.
+pub(crate) fn attribute(node: Node<'_, '_>, name: &str) -> Option<Text> {
+    let attribute = node.attribute_node(name)?;
+    let range = attribute.range_value();
+    Some(Text { text: attribute.value().trim().to_owned(), span: Span::new(range.start, range.end) })
+}
