@@ -10,8 +10,6 @@ mod lower;
 mod narrow;
 mod print;
 mod restriction;
-#[cfg(test)]
-mod tests;
 mod tolerated;
 mod value;
 

@@ -225,3 +225,5 @@ fn complement(ty: Type, negated: bool, value: u64) -> u64 {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod written_out;

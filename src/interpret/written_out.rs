@@ -1,7 +1,7 @@
 //! Flattened calls, arrays and functions, executed.
 
-use super::{FlatProgram, Hazard, flatten, flatten_with};
-use crate::interpret::Machine;
+use super::Machine;
+use crate::flat::{FlatProgram, Hazard, flatten, flatten_with};
 use crate::semantics::check;
 use crate::source::Source;
 use crate::syntax::parse;
