@@ -209,7 +209,7 @@ fn every_width_has_its_place_in_a_state() {
     assert_eq!(values(&system, run, "small"), [-9_223_372_036_854_775_807; 2]);
     let table = scan_table(&system, run).to_string();
     let last = table.lines().last().unwrap();
-    let expected = "   2 | *0 |  18446744073709551614  -9223372036854775807 |  T#1s500ms  32769";
+    let expected = "   2 | *0 |  18446744073709551614  -9223372036854775807 |  T#1s500ms  16#8001";
     assert_eq!(last, expected, "{table}");
 }
 

@@ -3,6 +3,7 @@
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
 use super::formula::{Comparison, Quantifier};
+use crate::flat::value_text;
 use crate::semantics::Role;
 use crate::translate::{PlaceRole, System};
 
@@ -57,7 +58,7 @@ impl Bound {
                     Comparison::Greater => ">",
                     Comparison::AtLeast => ">=",
                 };
-                let sides = (left.set(system, Strength::Sum), right.set(system, Strength::Sum));
+                let sides = (left.beside(right, system), right.beside(left, system));
                 parenthesise(format!("{} {sign} {}", sides.0, sides.1), Strength::Compare < around)
             }
             Self::Not(f) => format!("!{}", f.set(system, Strength::Prefix)),
@@ -86,6 +87,17 @@ impl Bound {
 }
 
 impl Term {
+    /// One side of a comparison. A number beside a variable is written as a value of this variable: `16#8001`, `T#1s`.
+    fn beside(&self, other: &Self, system: &System) -> String {
+        if let (Self::Number(number), Self::Variable(variable, _) | Self::Bits { variable, .. }) = (self, other) {
+            let ty = system.program.variable(*variable).ty;
+            if ty.holds(*number) {
+                return value_text(ty, ty.pattern(*number));
+            }
+        }
+        self.set(system, Strength::Sum)
+    }
+
     fn set(&self, system: &System, around: Strength) -> String {
         let two = |a: &Self, sign: &str, b: &Self, strength: Strength| {
             let text = format!("{} {sign} {}", a.set(system, strength), b.set(system, Strength::Prefix));
