@@ -38,7 +38,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use function::Function;
 pub use library::{CLOCK, RUNNING, text as library_text};
@@ -81,9 +81,11 @@ const RULES: &[Rule] = &[
     rule_labels_used::apply,
     rule_parentheses_begin_with_value::apply,
     rule_result_defined::apply,
-    rule_results_used::apply,
-    rule_variables_used::apply,
 ];
+
+/// Rules about what a program does not do. They look at programs without errors only: of a broken line nobody knows what it
+/// would have used.
+const DOUBTS: &[Rule] = &[rule_results_used::apply, rule_variables_used::apply];
 
 /// Checks the program of a file with all it calls. It is `None` exactly if one of the diagnostics, or one found while
 /// reading the text, is an error; `clean` says that reading found none.
@@ -99,8 +101,7 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
             diagnostics.push(foreign(pou, language, *span));
             continue;
         }
-        let labels = control_flow::labels(&pou.body);
-        let context = Context { project: &project, id, pou, symbols: project.symbols(id), labels };
+        let context = project.context(id);
         let typed = typing::unit(&context);
         if !project.is_library(id) {
             diagnostics.append(&mut of_units[id.0]);
@@ -113,6 +114,10 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
     }
     diagnostics.extend(not_checked(&project, &needed));
     let interval = interval::of(unit, &project.pou(entry).name, &mut diagnostics);
+    if clean && !any_error(&diagnostics) {
+        let own = needed.iter().filter(|&&id| !project.is_library(id)).map(|&id| project.context(id));
+        diagnostics.extend(own.flat_map(|context| DOUBTS.iter().flat_map(move |rule| rule(&context)).collect::<Vec<_>>()));
+    }
     diagnostics.sort_by_key(Diagnostic::span);
     diagnostics.dedup();
     if !clean || any_error(&diagnostics) {
@@ -134,9 +139,9 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
         }));
         return Some(id);
     }
-    let is_called =
-        |id: PouId| own().any(|(other, _)| other != id && project.calls(other).iter().any(|(callee, _)| *callee == id));
-    let (id, pou) = own().filter(|(id, _)| !is_called(*id)).last().or_else(|| own().last())?;
+    let called_by = |id: PouId| project.calls(id).into_iter().map(|(callee, _)| callee).filter(move |callee| *callee != id);
+    let called: BTreeSet<PouId> = own().flat_map(|(id, _)| called_by(id)).collect();
+    let (id, pou) = own().filter(|(id, _)| !called.contains(id)).last().or_else(|| own().last())?;
     let message = format!("this file holds no program, so {} `{}` is checked by itself", pou.kind, pou.name.text);
     diagnostics.push(
         Diagnostic::new(Code::CheckedByItself, pou.name.span, message)

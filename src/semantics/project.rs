@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::declare::{Declare, enumerator};
-use super::library;
+use super::declare::{Declare, Scope, enumerator};
+use super::{Context, control_flow, library, uses};
 use super::shape::{Enumeration, PouId, Scalar, Shape, Value};
 use super::symbols::{Area, Section, Symbol, Symbols, address};
 use super::types::{Kind, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{
-    Declaration, Name, Operand, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested,
+    Declaration, Name, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested,
 };
 
 /// A file and the library.
@@ -50,6 +50,7 @@ impl<'a> Project<'a> {
                 Some(_) => {}
             }
         }
+        found.extend(names_of_types(unit, &pous[..own]));
         let is_block = |id: &PouId| pous[id.0].kind == PouKind::FunctionBlock;
         let blocks = by_name.iter().filter(|(_, id)| is_block(id)).map(|(name, id)| (name.clone(), *id)).collect();
         let mut declare = Declare::new(&unit.types, &blocks);
@@ -59,6 +60,10 @@ impl<'a> Project<'a> {
             .for_each(|block| self::block(block, &mut globals, &Symbols::default(), &mut declare, false));
         addresses(unit, &mut globals);
         found.append(&mut declare.diagnostics);
+        // Initial values of instances name variables of units that may stand further down, so these are read first.
+        let enumerations = declare.enumerations.len();
+        let known = pous.iter().map(|pou| self::symbols(pou, &globals, &mut declare)).collect();
+        declare.begin_again(known, enumerations);
         let mut symbols = Vec::new();
         let mut of_units = Vec::new();
         for pou in &pous {
@@ -80,6 +85,12 @@ impl<'a> Project<'a> {
 
     pub fn symbols(&self, id: PouId) -> &Symbols {
         &self.symbols[id.0]
+    }
+
+    /// What the rules look at.
+    pub fn context(&self, id: PouId) -> Context<'_> {
+        let pou = self.pou(id);
+        Context { project: self, id, pou, symbols: self.symbols(id), labels: control_flow::labels(&pou.body) }
     }
 
     /// Whether a unit belongs to the library.
@@ -185,17 +196,8 @@ fn addresses(unit: &Unit, globals: &mut Symbols) {
     for pou in &unit.pous {
         let declared = pou.blocks.iter().flat_map(|block| &block.declarations).filter_map(|d| d.location.as_ref());
         let declared: BTreeSet<String> = declared.map(|location| address(&location.text)).collect();
-        for (instruction, _) in with_nested(&pou.body) {
-            let used = match &instruction.operation {
-                Some(Operation::Simple { operands, .. }) => operands.as_slice(),
-                Some(Operation::Parenthesis { first, .. }) => first.as_slice(),
-                _ => &[],
-            };
-            paths.extend(used.iter().filter_map(|operand| match operand {
-                Operand::Variable(path) if !declared.contains(&address(&path.root.text)) => Some(path),
-                _ => None,
-            }));
-        }
+        let used = uses::operands(&pou.body);
+        paths.extend(used.into_iter().filter(|path| !declared.contains(&address(&path.root.text))));
     }
     for path in paths.into_iter().filter(|path| path.root.text.starts_with('%')) {
         let Some((area, ty)) = read_address(&path.root.text) else { continue };
@@ -251,6 +253,7 @@ fn symbols(pou: &Pou, globals: &Symbols, declare: &mut Declare<'_>) -> Symbols {
     if pou.kind == PouKind::Function {
         result(pou, &mut symbols, declare);
     }
+    declare.in_function = pou.kind == PouKind::Function;
     for block in &pou.blocks {
         let may_locate = pou.kind == PouKind::Program;
         self::block(block, &mut symbols, globals, declare, may_locate);
@@ -272,7 +275,8 @@ fn result(pou: &Pou, symbols: &mut Symbols, declare: &mut Declare<'_>) {
         }
         Some(result) => {
             let spec = crate::syntax::ast::TypeSpec::Named(result.clone());
-            match declare.shape(&spec, symbols).map(|(shape, _)| shape) {
+            let nothing = Symbols::default();
+            match declare.shape(&spec, &Scope { own: &nothing, globals: &nothing }).map(|(shape, _)| shape) {
                 Some(shape) if shape.scalar().is_none() => {
                     let message = format!("a function cannot return {shape}");
                     declare
@@ -332,12 +336,7 @@ fn declaration_of(
     declare: &mut Declare<'_>,
     may_locate: bool,
 ) {
-    let constants = |symbols: &Symbols| Symbols::clone(symbols);
-    let scope = if symbols.list().iter().any(|s| s.section == Section::Constant) {
-        constants(symbols)
-    } else {
-        globals.clone()
-    };
+    let scope = Scope { own: symbols, globals };
     let shaped = declaration.spec.as_ref().and_then(|spec| declare.shape(spec, &scope));
     let value = match (&declaration.initial, &shaped) {
         (Some(initial), Some((shape, _))) => declare.value(initial, shape, &scope),
@@ -348,6 +347,11 @@ fn declaration_of(
         let message = format!("`{}` is not supported", edge.key());
         let help = "declare an instance of R_TRIG or F_TRIG, and call it with the input";
         declare.diagnostics.push(Diagnostic::new(Code::DeclarationNotSupported, edge.span, message).help(help));
+    }
+    if let Some((shape, _)) = &shaped
+        && let Some(diagnostic) = instance(declaration, block, shape, declare.in_function)
+    {
+        declare.diagnostics.push(diagnostic);
     }
     for name in &declaration.names {
         let section = match block.kind {
@@ -415,6 +419,43 @@ fn declaration_of(
             Err(_) => {}
         }
     }
+}
+
+/// An instance keeps its state from call to call, so it cannot stand where variables begin anew or are copied.
+fn instance(declaration: &Declaration, block: &VarBlock, shape: &Shape, in_function: bool) -> Option<Diagnostic> {
+    let mut inside = BTreeSet::new();
+    instances(shape, &mut inside);
+    let why = match block.kind {
+        _ if inside.is_empty() => return None,
+        VarKind::Temp => "`VAR_TEMP` variables begin anew with every call",
+        VarKind::Input | VarKind::Output => "inputs and outputs are copied with every call",
+        VarKind::Local if block.constant => "constants never change",
+        VarKind::Local if in_function => "the variables of a function begin anew with every call",
+        _ => return None,
+    };
+    let span = declaration.spec.as_ref()?.span();
+    let help = if in_function {
+        "make the function a function block, or hand the instance over in `VAR_IN_OUT`"
+    } else {
+        "declare it in `VAR`, or hand it over in `VAR_IN_OUT`"
+    };
+    let message = "an instance of a function block keeps its state, which it cannot do here";
+    Some(Diagnostic::new(Code::InstanceUnfit, span, message).here(why).help(help))
+}
+
+/// Types that have the name of a unit, or of a type that exists already.
+fn names_of_types<'a>(unit: &'a Unit, pous: &'a [&Pou]) -> impl Iterator<Item = Diagnostic> + 'a {
+    unit.types.iter().filter_map(|declaration| {
+        let name = &declaration.name;
+        let message = |what: String| {
+            Diagnostic::new(Code::PouDeclaredTwice, name.span, format!("`{}` is the name of {what}", name.text))
+        };
+        if Type::named(&name.text).is_some() {
+            return Some(message("an elementary type".to_owned()).help("give the type another name"));
+        }
+        let pou = pous.iter().find(|pou| pou.name.key() == name.key())?;
+        Some(message(format!("a `{}`, too", pou.kind)).also(pou.name.span, "defined here"))
+    })
 }
 
 /// An external variable is what the global one is.

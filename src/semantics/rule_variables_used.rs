@@ -44,7 +44,7 @@ fn complaint(symbol: &Symbol, written: Option<bool>) -> Option<Diagnostic> {
                     .help("it keeps its initial value for ever"),
             )
         }
-        None if symbol.section == Section::Result => {
+        None | Some(false) if symbol.section == Section::Result => {
             let message = format!("the function `{name}` never gives its result a value");
             Some(
                 Diagnostic::new(Code::OutputNotWritten, symbol.span, message)
