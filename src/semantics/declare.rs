@@ -45,8 +45,13 @@ impl Scope<'_> {
 }
 
 impl<'a> Declare<'a> {
-    /// The types of a file; `blocks` are the function blocks that exist.
-    pub fn new(types: &'a [TypeDeclaration], blocks: &'a BTreeMap<String, PouId>) -> Self {
+    /// The types of a file; `blocks` are the function blocks that exist, `known` the variables of all units, once they have
+    /// been read.
+    pub fn new(
+        types: &'a [TypeDeclaration],
+        blocks: &'a BTreeMap<String, PouId>,
+        known: Option<Vec<Symbols>>,
+    ) -> Self {
         let mut declare = Self {
             declared: BTreeMap::new(),
             resolved: BTreeMap::new(),
@@ -55,7 +60,7 @@ impl<'a> Declare<'a> {
             enumerations: Vec::new(),
             diagnostics: Vec::new(),
             in_function: false,
-            known: None,
+            known,
         };
         for declaration in types {
             let name = &declaration.name;
@@ -72,13 +77,6 @@ impl<'a> Declare<'a> {
             declare.named(&declaration.name);
         }
         declare
-    }
-
-    /// Forgets what was found while the units were read for the first time, but not their variables.
-    pub fn begin_again(&mut self, known: Vec<Symbols>, enumerations: usize) {
-        self.known = Some(known);
-        self.enumerations.truncate(enumerations);
-        self.diagnostics.clear();
     }
 
     fn report(&mut self, code: Code, span: Span, message: String, more: impl FnOnce(Diagnostic) -> Diagnostic) {

@@ -7,6 +7,7 @@ mod constant;
 mod control_flow;
 mod declare;
 mod effect;
+mod extent;
 mod function;
 mod inference;
 mod interval;
@@ -94,6 +95,7 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
     let (project, mut diagnostics, mut of_units) = Project::of(unit);
     let Some(entry) = entry(&project, &mut diagnostics) else { return (None, diagnostics) };
     let needed = project.reachable(entry, &mut diagnostics);
+    extent::check(&project, &needed, &mut diagnostics);
     let mut pous: Vec<Pou> = project.pous.iter().enumerate().map(|(i, pou)| empty(&project, PouId(i), pou)).collect();
     for &id in &needed {
         let pou = project.pou(id);

@@ -53,24 +53,11 @@ impl<'a> Project<'a> {
         found.extend(names_of_types(unit, &pous[..own]));
         let is_block = |id: &PouId| pous[id.0].kind == PouKind::FunctionBlock;
         let blocks = by_name.iter().filter(|(_, id)| is_block(id)).map(|(name, id)| (name.clone(), *id)).collect();
-        let mut declare = Declare::new(&unit.types, &blocks);
-        let mut globals = Symbols::default();
-        unit.globals
-            .iter()
-            .for_each(|block| self::block(block, &mut globals, &Symbols::default(), &mut declare, false));
-        addresses(unit, &mut globals);
-        found.append(&mut declare.diagnostics);
-        // Initial values of instances name variables of units that may stand further down, so these are read first.
-        let enumerations = declare.enumerations.len();
-        let known = pous.iter().map(|pou| self::symbols(pou, &globals, &mut declare)).collect();
-        declare.begin_again(known, enumerations);
-        let mut symbols = Vec::new();
-        let mut of_units = Vec::new();
-        for pou in &pous {
-            symbols.push(self::symbols(pou, &globals, &mut declare));
-            of_units.push(std::mem::take(&mut declare.diagnostics));
-        }
-        let enumerations = declare.enumerations;
+        // Initial values of instances name variables of units that may stand further down, so all is read twice.
+        let known = Declarations::of(unit, &pous, &blocks, None).symbols;
+        let read = Declarations::of(unit, &pous, &blocks, Some(known));
+        found.extend(read.found);
+        let Declarations { globals, symbols, enumerations, of_units, .. } = read;
         (Self { unit, pous, by_name, symbols, globals, enumerations, own }, found, of_units)
     }
 
@@ -108,6 +95,16 @@ impl<'a> Project<'a> {
         enumerator(&self.enumerations, name)
     }
 
+    /// The names of all enumerations.
+    pub fn enumeration_names(&self) -> impl Iterator<Item = &str> {
+        self.enumerations.iter().map(|enumeration| enumeration.name.as_str())
+    }
+
+    /// The names of the values of all enumerations.
+    pub fn enumerator_names(&self) -> impl Iterator<Item = &str> {
+        self.enumerations.iter().flat_map(|enumeration| &enumeration.values).map(String::as_str)
+    }
+
     /// The variable a name stands for in a unit: its own, or a global one (as its position among these).
     pub fn variable(&self, id: PouId, name: &str) -> Option<(Section, usize, &Symbol)> {
         if let Some((position, symbol)) = self.symbols(id).find(name) {
@@ -139,11 +136,11 @@ impl<'a> Project<'a> {
     pub fn reachable(&self, entry: PouId, found: &mut Vec<Diagnostic>) -> Vec<PouId> {
         let mut done = Vec::new();
         let mut open = Vec::new();
-        self.visit(entry, &mut open, &mut done, found);
         // Global variables may be instances too.
         let mut global = BTreeSet::new();
         self.globals.list().iter().filter_map(|symbol| symbol.shape.as_ref()).for_each(|s| instances(s, &mut global));
         global.into_iter().for_each(|id| self.visit(id, &mut open, &mut done, found));
+        self.visit(entry, &mut open, &mut done, found);
         done
     }
 
@@ -175,6 +172,35 @@ impl<'a> Project<'a> {
         if !done.contains(&id) {
             done.push(id);
         }
+    }
+}
+
+/// What the declarations of a file say.
+struct Declarations {
+    globals: Symbols,
+    symbols: Vec<Symbols>,
+    enumerations: Vec<Rc<Enumeration>>,
+    /// What is wrong with types and global variables.
+    found: Vec<Diagnostic>,
+    /// What is wrong with each unit's variables.
+    of_units: Vec<Vec<Diagnostic>>,
+}
+
+impl Declarations {
+    /// Reads them; `known` are the variables of the units, if they have been read before.
+    fn of(unit: &Unit, pous: &[&Pou], blocks: &BTreeMap<String, PouId>, known: Option<Vec<Symbols>>) -> Self {
+        let mut declare = Declare::new(&unit.types, blocks, known);
+        let mut globals = Symbols::default();
+        let none = Symbols::default();
+        unit.globals.iter().for_each(|block| self::block(block, &mut globals, &none, &mut declare, false));
+        addresses(unit, &mut globals);
+        let found = std::mem::take(&mut declare.diagnostics);
+        let read = |pou: &&Pou| {
+            let symbols = symbols(pou, &globals, &mut declare);
+            (symbols, std::mem::take(&mut declare.diagnostics))
+        };
+        let (symbols, of_units) = pous.iter().map(read).unzip();
+        Self { globals, symbols, enumerations: declare.enumerations, found, of_units }
     }
 }
 

@@ -18,7 +18,7 @@ impl Typing<'_> {
     pub fn call(&mut self, condition: Condition, callee: &Path, arguments: &Arguments, span: Span) -> Option<Action> {
         let (id, place) = self.instance(callee)?;
         let mut call = self.empty(condition, Callee::Instance(id, place));
-        self.arguments(id, &arguments.list, 0, &mut call, span);
+        self.arguments(id, &arguments.list, 0, &mut call);
         self.check_in_outs(id, &call, span);
         Some(Action::Call(Box::new(call)))
     }
@@ -40,7 +40,8 @@ impl Typing<'_> {
                 PouKind::FunctionBlock => {
                     format!("declare one, like `VAR x : {}; END_VAR`, and call it with `CAL x`", name.text)
                 }
-                _ => format!("functions are called by their name alone: `{}`", name.text),
+                PouKind::Function => format!("functions are called by their name alone: `{}`", name.text),
+                PouKind::Program => "a program is executed by its task, and cannot be called".to_owned(),
             };
             self.diagnostics.push(Diagnostic::new(Code::NotCallable, name.span, message).help(help));
             return None;
@@ -69,7 +70,7 @@ impl Typing<'_> {
                 .push(Diagnostic::new(Code::ParameterUnknown, span, message).help(format!("its inputs are {inputs}")));
             return None;
         };
-        let scalar = symbol.shape.as_ref()?.scalar()?.clone();
+        let scalar = self.whole(symbol, word, span)?;
         let ty = self.types.of(&scalar, span);
         self.same(result, ty, span, |known| {
             format!("the input `{word}` of `{block}` is `{scalar}`, but the current result is `{}`", known.scalar)
@@ -96,7 +97,13 @@ impl Typing<'_> {
             }
             Some((_, kind)) => {
                 let message = format!("`{}` is a `{kind}`, not a function", name.text);
-                self.diagnostics.push(Diagnostic::new(Code::NotCallable, name.span, message));
+                let help = match kind {
+                    PouKind::FunctionBlock => {
+                        format!("declare an instance, like `VAR x : {}; END_VAR`, and call it with `CAL x`", name.text)
+                    }
+                    _ => "a program is executed by its task, and cannot be called".to_owned(),
+                };
+                self.diagnostics.push(Diagnostic::new(Code::NotCallable, name.span, message).help(help));
                 (None, self.types.fresh())
             }
             None => self.standard(name, arguments, span, result),
@@ -127,7 +134,13 @@ impl Typing<'_> {
                 return None;
             };
             first = 1;
-            let scalar = input.shape.as_ref()?.scalar()?.clone();
+            if input.section == Section::InOut {
+                let message = format!("`{}` is an in-out variable of `{name}`, so it needs a variable", input.name);
+                let help = format!("the current result is none; write `{name}({} := x)`", input.name);
+                self.diagnostics.push(Diagnostic::new(Code::ParameterUnfit, span, message).help(help));
+                return None;
+            }
+            let scalar = self.whole(input, &input.name, span)?;
             let ty = self.types.of(&scalar, span);
             self.same(result, ty, span, |known| {
                 format!(
@@ -146,13 +159,13 @@ impl Typing<'_> {
                 return None;
             }
         }
-        self.arguments(id, &arguments.list, first, &mut call, span);
+        self.arguments(id, &arguments.list, first, &mut call);
         self.check_in_outs(id, &call, span);
         Some(Action::Call(Box::new(call)))
     }
 
     /// Arguments to the variables of a unit; positional ones begin with the input of position `first`.
-    fn arguments(&mut self, id: PouId, arguments: &[Argument], first: usize, call: &mut Call, span: Span) {
+    fn arguments(&mut self, id: PouId, arguments: &[Argument], first: usize, call: &mut Call) {
         let context = self.context;
         let symbols = context.project.symbols(id);
         let block = &context.project.pou(id).name.text;
@@ -180,7 +193,6 @@ impl Typing<'_> {
             }
             self.argument(id, argument, &name, at, call);
         }
-        let _ = span;
     }
 
     fn argument(&mut self, id: PouId, argument: &Argument, name: &str, at: Span, call: &mut Call) -> Option<()> {
@@ -204,8 +216,14 @@ impl Typing<'_> {
         let unfit = |message: String, help: &str| Diagnostic::new(Code::ParameterUnfit, at, message).help(help);
         match (argument, symbol.section) {
             (Argument::Output { negated, target, .. }, Section::Output) => {
+                let shape = symbol.shape.as_ref()?;
+                let Some(scalar) = shape.scalar().cloned() else {
+                    let message = format!("the output `{name}` is {shape}, and cannot be taken as one value");
+                    let help = "load its parts after the call, or declare it in `VAR_IN_OUT`";
+                    self.diagnostics.push(unfit(message, help));
+                    return None;
+                };
                 let (ty, place) = self.writable(target, "=>")?;
-                let scalar = symbol.shape.as_ref()?.scalar()?.clone();
                 let own = self.types.of(&scalar, at);
                 self.same(own, ty, place.span, |_| {
                     format!("the output `{name}` of `{block}` is `{scalar}`, and this is of another type")
@@ -234,13 +252,12 @@ impl Typing<'_> {
                 self.input(&scalar, &feed, name, block);
                 call.inputs.push((position, feed));
             }
-            (
-                Argument::Input { value: ast::Feed::Operand(operand), .. } | Argument::Positional(operand),
-                Section::InOut,
-            ) => {
-                let Operand::Variable(path) = operand else {
+            (Argument::Input { .. } | Argument::Positional(_), Section::InOut) => {
+                let (Argument::Input { value: ast::Feed::Operand(Operand::Variable(path)), .. }
+                | Argument::Positional(Operand::Variable(path))) = argument
+                else {
                     let message = format!("`{name}` is an in-out variable of `{block}`, so it needs a variable");
-                    self.diagnostics.push(unfit(message, "a literal cannot be written"));
+                    self.diagnostics.push(unfit(message, "what the block writes to it goes there"));
                     return None;
                 };
                 let place = self.place(path, Use::Bind)?;
@@ -303,10 +320,10 @@ impl Typing<'_> {
     /// `EN := …` and `ENO => …`, which every unit has.
     pub fn enable(&mut self, argument: &Argument, name: &str, enable: &mut Enable) -> bool {
         match argument {
-            Argument::Input { value, .. } if name.eq_ignore_ascii_case("EN") => {
+            Argument::Input { name: Name { span: argument_span, .. }, value } if name.eq_ignore_ascii_case("EN") => {
                 let feed = match value {
                     ast::Feed::Operand(operand) => self.feed(operand),
-                    ast::Feed::List(list) => Some(self.feed_list(list, Span::default())),
+                    ast::Feed::List(list) => Some(self.feed_list(list, *argument_span)),
                 };
                 if let Some(feed) = feed {
                     let boolean = self.types.boolean(feed.span);

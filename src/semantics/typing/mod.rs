@@ -17,7 +17,7 @@ use super::types::Type;
 use super::{Context, control_flow};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{self, Instruction, Name, Operation};
+use crate::syntax::ast::{self, Instruction, Literal, Name, Operation};
 
 /// A typed instruction list.
 pub struct Typed {
@@ -183,6 +183,18 @@ impl Typing<'_> {
         match operand {
             ast::Operand::Constant(constant) => {
                 let project = self.context.project;
+                if let Some(Literal::Enumerated(prefix, _)) = &constant.literal
+                    && project.enumeration(prefix).is_none()
+                {
+                    let message = format!("there is no enumeration `{prefix}`");
+                    let names = project.enumeration_names();
+                    self.diagnostics.push(
+                        Diagnostic::new(Code::TypeNotDeclared, constant.span, message)
+                            .suggest(prefix, names)
+                            .help(format!("declare it, like `TYPE {prefix} : (first, second); END_TYPE`")),
+                    );
+                    return None;
+                }
                 let (ty, position) = self.types.literal(constant, |name| project.enumeration(name));
                 Some((ty, Operand::Literal(position)))
             }
@@ -232,7 +244,8 @@ fn undeclared(unknown: BTreeMap<String, (Name, usize)>, context: &Context<'_>) -
     let found = firsts.into_iter().enumerate().map(|(i, (name, uses))| {
         let message = format!("`{}` is not declared", name.text);
         let diagnostic = Diagnostic::new(Code::NameNotDeclared, name.span, message);
-        let diagnostic = diagnostic.suggest_at(i, &name.text, context.symbols.names());
+        let names = context.symbols.names().chain(context.project.globals.names());
+        let diagnostic = diagnostic.suggest_at(i, &name.text, names.chain(context.project.enumerator_names()));
         if uses > 1 { diagnostic.here(format!("the first of {uses} uses")) } else { diagnostic }
     });
     found.collect()

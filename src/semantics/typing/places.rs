@@ -242,7 +242,8 @@ impl Typing<'_> {
                 let place = self.place(path, Use::Read)?;
                 self.elementary(&place, path)?;
                 let scalar = place.scalar();
-                let is_number = matches!(scalar.ty.kind, Kind::Signed | Kind::Unsigned);
+                let is_number =
+                    matches!(scalar.ty.kind, Kind::Signed | Kind::Unsigned) && scalar.enumeration.is_none();
                 if !is_number {
                     let message = format!("`{path}` is of type `{scalar}` and can be no index");
                     self.diagnostics

@@ -118,9 +118,15 @@ impl Typing<'_> {
             feeds.push(Some(Feed { ty: result, source: FeedSource::Result, span }));
         }
         let errors = self.diagnostics.len();
+        // Names that are not declared are reported later.
+        let mut broken = false;
         for argument in &arguments.list {
             match argument {
-                Argument::Positional(operand) => feeds.push(self.feed(operand)),
+                Argument::Positional(operand) => {
+                    let feed = self.feed(operand);
+                    broken |= feed.is_none();
+                    feeds.push(feed);
+                }
                 Argument::Input { name: input, value } => {
                     if self.enable(argument, &input.text, enable) {
                         continue;
@@ -138,6 +144,7 @@ impl Typing<'_> {
                         ast::Feed::Operand(operand) => self.feed(operand),
                         ast::Feed::List(list) => Some(self.feed_list(list, input.span)),
                     };
+                    broken |= feed.is_none();
                     if feeds.len() <= position {
                         feeds.resize_with(position + 1, || None);
                     }
@@ -150,7 +157,7 @@ impl Typing<'_> {
                 }
             }
         }
-        if self.diagnostics.len() > errors {
+        if broken || self.diagnostics.len() > errors {
             return None;
         }
         let needed = signature.inputs.len();
