@@ -39,6 +39,14 @@ pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
     }
 }
 
+/// The next type of the same kind that has a literal.
+pub fn wider(constant: &Constant, scalar: &Scalar) -> Option<Type> {
+    let Some(Literal::Integer(number)) = constant.literal else { return None };
+    let ty = scalar.ty;
+    let mut types = Type::ALL.iter().map(|&(_, ty)| ty).filter(|other| other.kind == ty.kind && other.width > ty.width);
+    types.find(|ty| scalar.enumeration.is_none() && ty.holds(number))
+}
+
 /// Microseconds in whole milliseconds.
 pub fn milliseconds(micros: i128) -> Result<i128, Unfit> {
     let whole = micros % 1000 == 0;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::constant::number;
+use super::constant::{number, wider};
 use super::shape::{Enumeration, Member, PouId, Scalar, Shape, Structure, Value, elements};
 use super::symbols::{Section, Symbol, Symbols};
 use super::types::{Kind, Type};
@@ -206,7 +206,10 @@ impl<'a> Declare<'a> {
         }
         if self.open.contains(&key) {
             let message = format!("the type `{}` contains itself", name.text);
-            self.report(Code::TypeRecursive, name.span, message, |d| d.also(declaration.name.span, "declared here"));
+            self.report(Code::TypeRecursive, name.span, message, |d| {
+                d.also(declaration.name.span, "declared here")
+                    .help("refer to another one by a number, like its index in an array")
+            });
             return None;
         }
         self.open.push(key.clone());
@@ -305,11 +308,10 @@ impl<'a> Declare<'a> {
                 Err(why) => {
                     let message = format!("`{}` {why}", constant.text);
                     let diagnostic = Diagnostic::new(Code::InitialValueUnfit, initial.span, message);
-                    let is_bool = scalar.ty.is_bool();
-                    self.diagnostics.push(if is_bool {
-                        diagnostic.help("write `TRUE` or `FALSE`")
-                    } else {
-                        diagnostic
+                    self.diagnostics.push(match wider(constant, scalar) {
+                        _ if scalar.ty.is_bool() => diagnostic.help("write `TRUE` or `FALSE`"),
+                        Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
+                        None => diagnostic,
                     });
                     None
                 }

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::constant::number;
+use super::constant::{number, wider};
 use super::program::TypeId;
 use super::shape::{Enumeration, Scalar};
 use super::types::{Kind, Type};
@@ -124,8 +124,12 @@ impl Inference {
             return Err(Box::new((left.clone(), right.clone())));
         }
         if a != b {
-            // What was known first is where people look.
-            if self.known[a].is_none() {
+            // What stands first is where people look.
+            let later = match (&self.known[a], &self.known[b]) {
+                (Some(left), Some(right)) => right.span.start < left.span.start,
+                (left, _) => left.is_none(),
+            };
+            if later {
                 self.known[a] = self.known[b].take();
             }
             self.parent[b] = a;
@@ -161,10 +165,12 @@ impl Inference {
                     patterns.push(0);
                     let message = format!("`{}` {why}", constant.text);
                     let diagnostic = Diagnostic::new(Code::LiteralUnfit, constant.span, message);
-                    found.push(if scalar.ty.is_bool() {
-                        diagnostic.help("Boolean literals are `TRUE` and `FALSE`, or `1` and `0`")
-                    } else {
-                        diagnostic
+                    found.push(match wider(&constant, &scalar) {
+                        _ if scalar.ty.is_bool() => {
+                            diagnostic.help("Boolean literals are `TRUE` and `FALSE`, or `1` and `0`")
+                        }
+                        Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
+                        None => diagnostic,
                     });
                 }
             }

@@ -36,8 +36,6 @@ mod rule_variables_used;
 
 #[cfg(test)]
 mod testing;
-#[cfg(test)]
-mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -165,11 +163,12 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
 fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
     let others =
         project.unit.pous.iter().enumerate().filter(|(i, pou)| {
-            !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
+            let counts = project.find(&pou.name.text) == Some(PouId(*i)) && pou.kind != PouKind::Program;
+            counts && !needed.contains(&PouId(*i)) && !pou.name.text.is_empty()
         });
     others.map(|(_, pou)| {
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
-        Diagnostic::new(Code::PouNotChecked, pou.name.span, message)
+        Diagnostic::new(Code::PouNotChecked, pou.name.span, message).help("call it, or check it in a file of its own")
     })
 }
 

@@ -44,7 +44,8 @@ impl<'a> Project<'a> {
                     let message = format!("`{}` is defined twice", pou.name.text);
                     found.push(
                         Diagnostic::new(Code::PouDeclaredTwice, pou.name.span, message)
-                            .also(pous[*first].name.span, "first defined here"),
+                            .also(pous[*first].name.span, "first defined here")
+                            .help("rename one of them"),
                     );
                 }
                 Some(_) => {}
@@ -296,7 +297,7 @@ fn result(pou: &Pou, symbols: &mut Symbols, declare: &mut Declare<'_>) {
     let shape = match &pou.result {
         None => {
             let message = format!("the function `{}` has no result type", pou.name.text);
-            declare.diagnostics.push(report(message, "write it behind the name, like `FUNCTION f : INT`"));
+            declare.diagnostics.push(report(message, &format!("write it behind the name, like `FUNCTION {} : INT`", pou.name.text)));
             None
         }
         Some(result) => {
@@ -480,7 +481,7 @@ fn names_of_types<'a>(unit: &'a Unit, pous: &'a [&Pou]) -> impl Iterator<Item = 
             return Some(message("an elementary type".to_owned()).help("give the type another name"));
         }
         let pou = pous.iter().find(|pou| pou.name.key() == name.key())?;
-        Some(message(format!("a `{}`, too", pou.kind)).also(pou.name.span, "defined here"))
+        Some(message(format!("a `{}`, too", pou.kind)).also(pou.name.span, "defined here").help("rename one of them"))
     })
 }
 
@@ -524,7 +525,9 @@ fn located(location: &Name, symbol: &Symbol, may_locate: bool, declare: &mut Dec
     let width = symbol.shape.as_ref().and_then(Shape::scalar).map(|scalar| scalar.ty.width);
     match (size, width) {
         (Some(size), Some(width)) if size.width != width => {
-            let message = format!("`{}` has {} bits, but `{}` needs {width}", location.text, size.width, symbol.name);
+            let bits = |n| if n == 1 { "1 bit".to_owned() } else { format!("{n} bits") };
+            let (own, needed) = (bits(size.width), bits(width));
+            let message = format!("`{}` has {own}, but `{}` needs {needed}", location.text, symbol.name);
             unfit(message, "X stands for one bit, B for 8, W for 16, D for 32, L for 64")
         }
         _ => Some(area),

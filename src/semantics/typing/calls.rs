@@ -272,7 +272,7 @@ impl Typing<'_> {
             }
             (_, Section::Output) => {
                 let message = format!("`{name}` is an output of `{block}`");
-                self.diagnostics.push(unfit(message, "take it with `=>`"));
+                self.diagnostics.push(unfit(message, &format!("take it with `{name} => x`, or load it after the call")));
             }
             _ => {
                 let message = format!("`{name}` is no parameter of `{block}`");

@@ -4,6 +4,8 @@ mod calls;
 mod operators;
 mod places;
 mod standard;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 
@@ -164,11 +166,10 @@ impl Typing<'_> {
         if let Err(known) = self.types.unify(result, other) {
             let (left, right) = *known;
             let mut diagnostic = Diagnostic::new(Code::TypesDiffer, span, message(&left));
-            if right.span != span {
-                diagnostic = diagnostic.also(right.span, format!("of type `{}`", right.scalar));
-            }
-            if left.span != span {
-                diagnostic = diagnostic.also(left.span, format!("of type `{}`", left.scalar));
+            for known in [&right, &left] {
+                let text = format!("of type `{}`", known.scalar);
+                diagnostic =
+                    if known.span == span { diagnostic.here(text) } else { diagnostic.also(known.span, text) };
             }
             let help = conversion(&left, &right);
             self.diagnostics.push(match help {

@@ -145,7 +145,9 @@ impl Typing<'_> {
     fn member(&mut self, shape: &Shape, name: &Name, whole: &str, used: Use) -> Option<(usize, Shape)> {
         let mut unknown = |what: String, names: Vec<&str>| {
             let message = format!("{what} has no part `{}`", name.text);
-            self.diagnostics.push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
+            let list = names.iter().take(12).copied().collect::<Vec<_>>().join(", ");
+            let diagnostic = Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names);
+            self.diagnostics.push(if list.is_empty() { diagnostic } else { diagnostic.help(format!("it has {list}")) });
             None
         };
         match shape {
@@ -159,7 +161,8 @@ impl Typing<'_> {
             Shape::Instance(id) => {
                 let symbols = self.context.project.symbols(*id);
                 let Some((position, symbol)) = symbols.find(&name.text) else {
-                    return unknown(format!("`{whole}`"), symbols.names().collect());
+                    let seen = symbols.list().iter().filter(|s| matches!(s.section, Section::Input | Section::Output));
+                    return unknown(format!("`{whole}`"), seen.map(|symbol| symbol.name.as_str()).collect());
                 };
                 let allowed = match (symbol.section, used) {
                     (Section::Input, _) | (Section::Output, Use::Read) => true,
@@ -200,13 +203,13 @@ impl Typing<'_> {
             return None;
         };
         if ranges.len() != indices.len() {
-            let message = format!("`{whole}` needs {} indices, here are {}", ranges.len(), indices.len());
-            let message = if ranges.len() == 1 {
-                format!("`{whole}` needs one index, here are {}", indices.len())
-            } else {
-                message
+            let dimensions = match ranges.len() {
+                1 => "1 dimension".to_owned(),
+                n => format!("{n} dimensions"),
             };
-            self.diagnostics.push(Diagnostic::new(Code::IndexCount, span, message));
+            let message = format!("`{whole}` has {dimensions}, but {} in brackets", count(indices.len()));
+            let help = format!("it is {shape}");
+            self.diagnostics.push(Diagnostic::new(Code::IndexCount, span, message).help(help));
             return None;
         }
         let indices =
@@ -272,4 +275,8 @@ impl Typing<'_> {
         self.diagnostics.push(Diagnostic::new(Code::IndexUnfit, path.span, message).help(help));
         None
     }
+}
+
+fn count(indices: usize) -> String {
+    if indices == 1 { "1 index stands".to_owned() } else { format!("{indices} indices stand") }
 }

@@ -166,9 +166,10 @@ impl Typing<'_> {
             let given = feeds.iter().flatten().count();
             let least = if signature.many { "at least " } else { "" };
             let message = format!("`{}` takes {least}{needed} values, here are {given}", name.text);
+            let list = signature.inputs.join(", ") + if signature.many { ", …" } else { "" };
             let help = match arguments.enclosed {
-                true => "give each of them, like `IN := x`",
-                false => "the first is the current result, the others stand behind the name",
+                true => format!("they are {list}"),
+                false => format!("they are {list}; the first is the current result, the others stand behind the name"),
             };
             self.diagnostics.push(Diagnostic::new(Code::ParameterCount, span, message).help(help));
             return None;
