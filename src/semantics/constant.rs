@@ -29,6 +29,9 @@ pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
         (Some(Literal::Integer(value)), None) if ty.kind != Kind::Time => *value,
         _ => return Err(none()),
     };
+    if !ty.holds(number) && ty.is_bool() {
+        return Err(none());
+    }
     if !ty.holds(number) {
         let (least, greatest) = (ty.least(), ty.greatest());
         return Err(format!("is no value of type `{ty}`, which goes from {least} to {greatest}"));

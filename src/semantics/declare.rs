@@ -299,7 +299,7 @@ impl<'a> Declare<'a> {
     /// A value written for a shape. `None` has been reported.
     pub fn value(&mut self, initial: &Initial, shape: &Shape, constants: &Scope<'_>) -> Option<Value> {
         let unfit = |what: &str| {
-            let message = format!("{what} is no value of {shape}");
+            let message = format!("{what} is no value of type `{shape}`");
             Diagnostic::new(Code::InitialValueUnfit, initial.span, message)
         };
         match (&initial.kind, shape) {
@@ -327,7 +327,10 @@ impl<'a> Declare<'a> {
                 let value = value.or_else(|| named().map(|number| scalar.ty.pattern(number)));
                 if value.is_none() {
                     self.diagnostics.push(
-                        unfit(&format!("`{name}`")).help("write a literal, or the name of a constant declared before"),
+                        unfit(&format!("`{name}`")).help(match scalar.ty.is_bool() {
+                            true => "write `TRUE` or `FALSE`, or the name of a constant declared before",
+                            false => "write a literal, or the name of a constant declared before",
+                        }),
                     );
                 }
                 value.map(Value::Scalar)

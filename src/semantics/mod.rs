@@ -74,7 +74,6 @@ const RULES: &[Rule] = &[
     rule_control_outside_parentheses::apply,
     rule_inputs_not_written::apply,
     rule_instructions_reachable::apply,
-    rule_jumps_forward::apply,
     rule_labels_defined::apply,
     rule_labels_unique::apply,
     rule_labels_used::apply,
@@ -82,9 +81,9 @@ const RULES: &[Rule] = &[
     rule_result_defined::apply,
 ];
 
-/// Rules about what a program does not do. They look at programs without errors only: of a broken line nobody knows what it
-/// would have used.
-const DOUBTS: &[Rule] = &[rule_results_used::apply, rule_variables_used::apply];
+/// Rules about what is allowed and probably not meant. They look at programs without errors only: of a broken line nobody
+/// knows what it would have used.
+const DOUBTS: &[Rule] = &[rule_jumps_forward::apply, rule_results_used::apply, rule_variables_used::apply];
 
 /// Checks the program of a file with all it calls. It is `None` exactly if one of the diagnostics, or one found while
 /// reading the text, is an error; `clean` says that reading found none.
@@ -151,7 +150,8 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
 }
 
 fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
-    let message = format!("`{}` is written in {language}, not in Instruction List", pou.name.text);
+    let how = if language.starts_with("a ") { "as" } else { "in" };
+    let message = format!("`{}` is written {how} {language}, not in Instruction List", pou.name.text);
     let help = match language {
         "Structured Text" => "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`",
         _ => "only Instruction List is read",
