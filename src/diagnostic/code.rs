@@ -111,6 +111,8 @@ codes! {
     OutputNotWritten = "W0224",
     /// An instance of a function block stands where it cannot keep its state.
     InstanceUnfit = "E0225",
+    /// An in-out variable has no caller whose variable it could stand for.
+    InOutWithoutCaller = "E0226",
 
     /// An operand is missing, or stands where none belongs.
     OperandCount = "E0302",

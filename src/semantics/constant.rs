@@ -47,6 +47,9 @@ pub fn wider(constant: &Constant, scalar: &Scalar) -> Option<Type> {
     let Some(Literal::Integer(number)) = constant.literal else { return None };
     let ty = scalar.ty;
     let mut types = Type::ALL.iter().map(|&(_, ty)| ty).filter(|other| other.kind == ty.kind && other.width > ty.width);
+    if ty.holds(number) || ty.kind == Kind::Time {
+        return None;
+    }
     types.find(|ty| scalar.enumeration.is_none() && ty.holds(number))
 }
 

@@ -47,11 +47,7 @@ impl Scope<'_> {
 impl<'a> Declare<'a> {
     /// The types of a file; `blocks` are the function blocks that exist, `known` the variables of all units, once they have
     /// been read.
-    pub fn new(
-        types: &'a [TypeDeclaration],
-        blocks: &'a BTreeMap<String, PouId>,
-        known: Option<Vec<Symbols>>,
-    ) -> Self {
+    pub fn new(types: &'a [TypeDeclaration], blocks: &'a BTreeMap<String, PouId>, known: Option<Vec<Symbols>>) -> Self {
         let mut declare = Self {
             declared: BTreeMap::new(),
             resolved: BTreeMap::new(),
@@ -64,12 +60,13 @@ impl<'a> Declare<'a> {
         };
         for declaration in types {
             let name = &declaration.name;
-            if let Some(first) = declare.declared.insert(name.key(), declaration) {
+            let first = *declare.declared.entry(name.key()).or_insert(declaration);
+            if first.name.span != name.span {
                 declare.report(
                     Code::PouDeclaredTwice,
                     name.span,
                     format!("the type `{}` is declared twice", name.text),
-                    |d| d.also(first.name.span, "first declared here"),
+                    |d| d.also(first.name.span, "first declared here").help("rename one of them"),
                 );
             }
         }
@@ -158,7 +155,9 @@ impl<'a> Declare<'a> {
         let shape = Shape::Structure(Rc::new(Structure { name: name.to_owned(), members }));
         if leaves(&shape) > MAX_ELEMENTS {
             let message = format!("this structure has more than {MAX_ELEMENTS} values");
-            self.report(Code::VariableTooLarge, span, message, |d| d.help("make its arrays as large as the program needs them"));
+            self.report(Code::VariableTooLarge, span, message, |d| {
+                d.help("make its arrays as large as the program needs them")
+            });
             return None;
         }
         Some((shape, Value::Default))
@@ -224,7 +223,9 @@ impl<'a> Declare<'a> {
         let none = Scope { own: &nothing, globals: &nothing };
         let (mut shape, default) = match declaration.spec.as_ref()? {
             TypeSpec::Enumeration(values) => self.enumeration(Some(&declaration.name.text), values)?,
-            TypeSpec::Structure { members, .. } => self.structure((&declaration.name.text, declaration.name.span), members, &none)?,
+            TypeSpec::Structure { members, .. } => {
+                self.structure((&declaration.name.text, declaration.name.span), members, &none)?
+            }
             other => self.shape(other, &none)?,
         };
         let value = match &declaration.initial {
@@ -311,6 +312,9 @@ impl<'a> Declare<'a> {
                     self.diagnostics.push(match wider(constant, scalar) {
                         _ if scalar.ty.is_bool() => diagnostic.help("write `TRUE` or `FALSE`"),
                         Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
+                        None if scalar.ty == Type::TIME && matches!(constant.literal, Some(Literal::Integer(_))) => {
+                            diagnostic.help(format!("write a time, like `T#{}ms`", constant.text))
+                        }
                         None => diagnostic,
                     });
                     None
@@ -326,12 +330,10 @@ impl<'a> Declare<'a> {
                 };
                 let value = value.or_else(|| named().map(|number| scalar.ty.pattern(number)));
                 if value.is_none() {
-                    self.diagnostics.push(
-                        unfit(&format!("`{name}`")).help(match scalar.ty.is_bool() {
-                            true => "write `TRUE` or `FALSE`, or the name of a constant declared before",
-                            false => "write a literal, or the name of a constant declared before",
-                        }),
-                    );
+                    self.diagnostics.push(unfit(&format!("`{name}`")).help(match scalar.ty.is_bool() {
+                        true => "write `TRUE` or `FALSE`, or the name of a constant declared before",
+                        false => "write a literal, or the name of a constant declared before",
+                    }));
                 }
                 value.map(Value::Scalar)
             }
@@ -398,8 +400,7 @@ impl Declare<'_> {
         let Some((position, symbol)) = symbols.find(&name.text).filter(|(_, symbol)| is_seen(symbol)) else {
             let message = format!("the function block has no input or output `{}`", name.text);
             let names = symbols.list().iter().filter(|symbol| is_seen(symbol)).map(|symbol| symbol.name.as_str());
-            self.diagnostics
-                .push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
+            self.diagnostics.push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
             return None;
         };
         Some((position, self.value(value, symbol.shape.as_ref()?, scope)?))
@@ -410,9 +411,7 @@ impl Declare<'_> {
 fn constant(symbol: &Symbol) -> Option<i128> {
     let scalar = symbol.shape.as_ref()?.scalar()?;
     match symbol.initial {
-        Value::Scalar(pattern) if symbol.section == Section::Constant => {
-            Some(scalar.ty.number(pattern))
-        }
+        Value::Scalar(pattern) if symbol.section == Section::Constant => Some(scalar.ty.number(pattern)),
         _ => None,
     }
 }
@@ -429,8 +428,9 @@ fn leaves(shape: &Shape) -> usize {
     match shape {
         Shape::Scalar(_) | Shape::Instance(_) => 1,
         Shape::Array { ranges, of } => elements(ranges).saturating_mul(leaves(of)),
-        Shape::Structure(structure) => structure.members.iter().fold(0, |sum, member| sum.saturating_add(leaves(&member.shape)))
-
+        Shape::Structure(structure) => {
+            structure.members.iter().fold(0, |sum, member| sum.saturating_add(leaves(&member.shape)))
+        }
     }
 }
 

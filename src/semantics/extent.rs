@@ -33,7 +33,8 @@ pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic
         found.push(Diagnostic::new(Code::ProgramTooLarge, pou.name.span, message).help(help));
         return;
     }
-    let large = project.globals.list().iter().filter_map(|symbol| Some((symbol, of_shape(symbol.shape.as_ref()?, &known))));
+    let large =
+        project.globals.list().iter().filter_map(|symbol| Some((symbol, of_shape(symbol.shape.as_ref()?, &known))));
     found.extend(large.filter(|&(_, values)| values > MAX).map(|(symbol, _)| {
         let message = format!("`{}` has more than {MAX} values", symbol.name);
         Diagnostic::new(Code::ProgramTooLarge, symbol.span, message)
@@ -46,10 +47,12 @@ fn instructions(project: &Project<'_>, id: PouId, known: &BTreeMap<PouId, Extent
     for (instruction, _) in with_nested(&context.pou.body) {
         let instance = match &instruction.operation {
             Some(Operation::Call { callee, .. }) => Some(callee),
-            Some(Operation::Simple { operator, operands }) if operator.verb.is_block_input() => match operands.first() {
-                Some(Operand::Variable(path)) => Some(path),
-                _ => None,
-            },
+            Some(Operation::Simple { operator, operands }) if operator.verb.is_block_input() => {
+                match operands.first() {
+                    Some(Operand::Variable(path)) => Some(path),
+                    _ => None,
+                }
+            }
             _ => None,
         };
         let callee = match (&instruction.operation, instance.and_then(|path| shape(path, &context))) {

@@ -20,6 +20,16 @@ pub struct Known {
     pub span: Span,
 }
 
+impl Known {
+    /// Whether it is the language that says so, and no place in the text.
+    pub fn is_nowhere(&self) -> bool {
+        self.span == NOWHERE
+    }
+}
+
+/// Where nothing stands.
+pub const NOWHERE: Span = Span { start: 0, end: 0 };
+
 /// A set of types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
@@ -126,7 +136,7 @@ impl Inference {
         if a != b {
             // What stands first is where people look.
             let later = match (&self.known[a], &self.known[b]) {
-                (Some(left), Some(right)) => right.span.start < left.span.start,
+                (Some(left), Some(right)) => !right.is_nowhere() && (left.is_nowhere() || right.span < left.span),
                 (left, _) => left.is_none(),
             };
             if later {
@@ -146,7 +156,7 @@ impl Inference {
             if let Some(known) = self.known[root].as_ref().filter(|known| !class.has(&known.scalar)) {
                 let message = format!("`{operator}` has no meaning for `{}`", known.scalar);
                 let diagnostic = Diagnostic::new(Code::OperatorUnfit, span, message);
-                let diagnostic = if known.span == span {
+                let diagnostic = if known.span == span || known.is_nowhere() {
                     diagnostic
                 } else {
                     diagnostic.also(known.span, format!("of type `{}`", known.scalar))
@@ -170,6 +180,9 @@ impl Inference {
                             diagnostic.help("Boolean literals are `TRUE` and `FALSE`, or `1` and `0`")
                         }
                         Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
+                        None if scalar.ty == Type::TIME && matches!(constant.literal, Some(Literal::Integer(_))) => {
+                            diagnostic.help(format!("write a time, like `T#{}ms`", constant.text))
+                        }
                         None => diagnostic,
                     });
                 }

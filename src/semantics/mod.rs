@@ -93,6 +93,7 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
     let Some(entry) = entry(&project, &mut diagnostics) else { return (None, diagnostics) };
     let needed = project.reachable(entry, &mut diagnostics);
     extent::check(&project, &needed, &mut diagnostics);
+    diagnostics.extend(without_caller(&project, entry));
     let mut pous: Vec<Pou> = project.pous.iter().enumerate().map(|(i, pou)| empty(&project, PouId(i), pou)).collect();
     for &id in &needed {
         let pou = project.pou(id);
@@ -111,11 +112,12 @@ pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
         pous[id.0].types = typed.types;
         pous[id.0].literals = typed.literals;
     }
-    diagnostics.extend(not_checked(&project, &needed));
     let interval = interval::of(unit, &project.pou(entry).name, &mut diagnostics);
     if clean && !any_error(&diagnostics) {
+        diagnostics.extend(not_checked(&project, &needed));
         let own = needed.iter().filter(|&&id| !project.is_library(id)).map(|&id| project.context(id));
-        diagnostics.extend(own.flat_map(|context| DOUBTS.iter().flat_map(move |rule| rule(&context)).collect::<Vec<_>>()));
+        diagnostics
+            .extend(own.flat_map(|context| DOUBTS.iter().flat_map(move |rule| rule(&context)).collect::<Vec<_>>()));
     }
     diagnostics.sort_by_key(Diagnostic::span);
     diagnostics.dedup();
@@ -138,7 +140,8 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
         }));
         return Some(id);
     }
-    let called_by = |id: PouId| project.calls(id).into_iter().map(|(callee, _)| callee).filter(move |callee| *callee != id);
+    let called_by =
+        |id: PouId| project.calls(id).into_iter().map(|(callee, _)| callee).filter(move |callee| *callee != id);
     let called: BTreeSet<PouId> = own().flat_map(|(id, _)| called_by(id)).collect();
     let (id, pou) = own().filter(|(id, _)| !called.contains(id)).last().or_else(|| own().last())?;
     let message = format!("this file holds no program, so {} `{}` is checked by itself", pou.kind, pou.name.text);
@@ -159,13 +162,27 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::OtherLanguage, span, message).help(help)
 }
 
+/// In-out variables of the unit that nothing calls.
+fn without_caller<'a>(project: &'a Project<'_>, entry: PouId) -> impl Iterator<Item = Diagnostic> + 'a {
+    let in_outs = project.symbols(entry).list().iter().filter(|symbol| symbol.section == Section::InOut);
+    in_outs.map(move |symbol| {
+        let pou = project.pou(entry);
+        let message =
+            format!("`{}` stands for a variable of the caller, but nothing calls `{}`", symbol.name, pou.name.text);
+        let help = match pou.kind {
+            PouKind::Program => "declare it in `VAR_INPUT`, `VAR_OUTPUT` or `VAR_EXTERNAL`",
+            _ => "write a `PROGRAM` that calls it with a variable",
+        };
+        Diagnostic::new(Code::InOutWithoutCaller, symbol.span, message).help(help)
+    })
+}
+
 /// Units of the file that are not needed.
 fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
-    let others =
-        project.unit.pous.iter().enumerate().filter(|(i, pou)| {
-            let counts = project.find(&pou.name.text) == Some(PouId(*i)) && pou.kind != PouKind::Program;
-            counts && !needed.contains(&PouId(*i)) && !pou.name.text.is_empty()
-        });
+    let others = project.unit.pous.iter().enumerate().filter(|(i, pou)| {
+        let counts = project.find(&pou.name.text) == Some(PouId(*i)) && pou.kind != PouKind::Program;
+        counts && !needed.contains(&PouId(*i)) && !pou.name.text.is_empty()
+    });
     others.map(|(_, pou)| {
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
         Diagnostic::new(Code::PouNotChecked, pou.name.span, message).help("call it, or check it in a file of its own")

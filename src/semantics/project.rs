@@ -4,14 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::declare::{Declare, Scope, enumerator};
-use super::{Context, control_flow, library, uses};
 use super::shape::{Enumeration, PouId, Scalar, Shape, Value};
 use super::symbols::{Area, Section, Symbol, Symbols, address};
 use super::types::{Kind, Type};
+use super::{Context, control_flow, library, uses};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{
-    Declaration, Name, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested,
-};
+use crate::syntax::ast::{Declaration, Name, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested};
 
 /// A file and the library.
 pub struct Project<'a> {
@@ -297,7 +295,9 @@ fn result(pou: &Pou, symbols: &mut Symbols, declare: &mut Declare<'_>) {
     let shape = match &pou.result {
         None => {
             let message = format!("the function `{}` has no result type", pou.name.text);
-            declare.diagnostics.push(report(message, &format!("write it behind the name, like `FUNCTION {} : INT`", pou.name.text)));
+            declare
+                .diagnostics
+                .push(report(message, &format!("write it behind the name, like `FUNCTION {} : INT`", pou.name.text)));
             None
         }
         Some(result) => {
@@ -490,7 +490,7 @@ fn external(name: &Name, symbol: &mut Symbol, global: Option<&Symbol>, declare: 
     let Some(global) = global else { return };
     let (Some(own), Some(other)) = (&symbol.shape, &global.shape) else { return };
     if !own.same(other) {
-        let message = format!("`{}` is {own} here, but the global variable is {other}", name.text);
+        let message = format!("`{}` is `{own}` here, but the global variable is `{other}`", name.text);
         declare
             .diagnostics
             .push(Diagnostic::new(Code::TypesDiffer, name.span, message).also(global.span, "declared here"));

@@ -6,7 +6,7 @@ use super::Typing;
 use super::places::Use;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::semantics::PouId;
-use crate::semantics::inference::Class;
+use crate::semantics::inference::{Class, NOWHERE};
 use crate::semantics::program::{Action, Call, Callee, Condition, Enable, Feed, FeedSource, Place, TypeId};
 use crate::semantics::shape::Shape;
 use crate::semantics::symbols::{Section, Symbol};
@@ -71,7 +71,7 @@ impl Typing<'_> {
             return None;
         };
         let scalar = self.whole(symbol, word, span)?;
-        let ty = self.types.of(&scalar, span);
+        let ty = self.types.of(&scalar, NOWHERE);
         self.same(result, ty, span, |known| {
             format!("the input `{word}` of `{block}` is `{scalar}`, but the current result is `{}`", known.scalar)
         });
@@ -141,7 +141,7 @@ impl Typing<'_> {
                 return None;
             }
             let scalar = self.whole(input, &input.name, span)?;
-            let ty = self.types.of(&scalar, span);
+            let ty = self.types.of(&scalar, NOWHERE);
             self.same(result, ty, span, |known| {
                 format!(
                     "the first input `{}` of `{name}` is `{scalar}`, but the current result is `{}`",
@@ -151,7 +151,9 @@ impl Typing<'_> {
             call.inputs.push((position, Feed { ty, source: FeedSource::Result, span }));
             if arguments.list.len() + 1 != inputs.len() {
                 let names: Vec<&str> = inputs.iter().map(|(_, symbol)| symbol.name.as_str()).collect();
-                let message = format!("`{name}` has {} inputs, here are {}", inputs.len(), arguments.list.len() + 1);
+                let (has, given) = (plural(inputs.len(), "input"), arguments.list.len() + 1);
+                let message =
+                    format!("`{name}` has {has}, but {given} {} given", if given == 1 { "is" } else { "are" });
                 self.diagnostics.push(Diagnostic::new(Code::ParameterCount, span, message).help(format!(
                     "its inputs are {}; the first is the current result, the others stand behind the name",
                     names.join(", ")
@@ -177,7 +179,7 @@ impl Typing<'_> {
                 Argument::Positional(operand) => match inputs.get(next) {
                     Some((_, symbol)) => (symbol.name.clone(), operand.span()),
                     None => {
-                        let message = format!("`{block}` has only {} inputs", inputs.len());
+                        let message = format!("`{block}` has only {}", plural(inputs.len(), "input"));
                         self.diagnostics.push(Diagnostic::new(Code::ParameterCount, operand.span(), message));
                         return;
                     }
@@ -224,7 +226,7 @@ impl Typing<'_> {
                     return None;
                 };
                 let (ty, place) = self.writable(target, "=>")?;
-                let own = self.types.of(&scalar, at);
+                let own = self.types.of(&scalar, NOWHERE);
                 self.same(own, ty, place.span, |_| {
                     format!("the output `{name}` of `{block}` is `{scalar}`, and this is of another type")
                 });
@@ -257,14 +259,17 @@ impl Typing<'_> {
                 | Argument::Positional(Operand::Variable(path))) = argument
                 else {
                     let message = format!("`{name}` is an in-out variable of `{block}`, so it needs a variable");
-                    self.diagnostics.push(unfit(message, "what the block writes to it goes there"));
+                    self.diagnostics
+                        .push(unfit(message, &format!("`{block}` writes to it, so name a variable of your own")));
                     return None;
                 };
                 let place = self.place(path, Use::Bind)?;
                 let shape = symbol.shape.as_ref()?;
                 if !place.shape.same(shape) {
-                    let message =
-                        format!("the in-out variable `{name}` of `{block}` is {shape}, but this is {}", place.shape);
+                    let message = format!(
+                        "the in-out variable `{name}` of `{block}` is `{shape}`, but this is `{}`",
+                        place.shape
+                    );
                     self.diagnostics.push(Diagnostic::new(Code::TypesDiffer, path.span, message));
                     return None;
                 }
@@ -272,7 +277,8 @@ impl Typing<'_> {
             }
             (_, Section::Output) => {
                 let message = format!("`{name}` is an output of `{block}`");
-                self.diagnostics.push(unfit(message, &format!("take it with `{name} => x`, or load it after the call")));
+                self.diagnostics
+                    .push(unfit(message, &format!("take it with `{name} => x`, or load it after the call")));
             }
             _ => {
                 let message = format!("`{name}` is no parameter of `{block}`");
@@ -294,7 +300,7 @@ impl Typing<'_> {
     }
 
     fn input(&mut self, scalar: &crate::semantics::shape::Scalar, feed: &Feed, name: &str, block: &str) {
-        let ty = self.types.of(scalar, feed.span);
+        let ty = self.types.of(scalar, NOWHERE);
         self.same(ty, feed.ty, feed.span, |_| {
             format!("the input `{name}` of `{block}` is `{scalar}`, and this is of another type")
         });
@@ -326,7 +332,7 @@ impl Typing<'_> {
                     ast::Feed::List(list) => Some(self.feed_list(list, *argument_span)),
                 };
                 if let Some(feed) = feed {
-                    let boolean = self.types.boolean(feed.span);
+                    let boolean = self.types.boolean(NOWHERE);
                     self.same(boolean, feed.ty, feed.span, |_| "`EN` is a `BOOL`".to_owned());
                     enable.en = Some(feed);
                 }
@@ -334,7 +340,7 @@ impl Typing<'_> {
             }
             Argument::Output { negated, target, .. } if name.eq_ignore_ascii_case("ENO") => {
                 if let Some((ty, place)) = self.writable(target, "=>") {
-                    let boolean = self.types.boolean(place.span);
+                    let boolean = self.types.boolean(NOWHERE);
                     self.same(boolean, ty, place.span, |_| "`ENO` is a `BOOL`".to_owned());
                     enable.eno = Some((*negated, place));
                 }
@@ -359,6 +365,11 @@ impl Typing<'_> {
             }
         }
     }
+}
+
+/// `1 input`, `2 inputs`
+pub fn plural(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 fn inputs_of(symbols: &[Symbol]) -> impl Iterator<Item = &Symbol> {

@@ -13,7 +13,7 @@ use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
 use super::effect::{Leaves, effect};
-use super::inference::{Inference, Known};
+use super::inference::{Inference, Known, NOWHERE};
 use super::program::{Action, Condition, Feed, FeedSource, Operand, Statement, TypeId};
 use super::types::Type;
 use super::{Context, control_flow};
@@ -140,7 +140,7 @@ impl Typing<'_> {
     /// A condition is `BOOL`.
     fn condition(&mut self, condition: Condition, result: TypeId, span: Span) {
         if condition != Condition::Always {
-            let boolean = self.types.boolean(span);
+            let boolean = self.types.boolean(NOWHERE);
             self.same(result, boolean, span, |known| {
                 format!("a condition needs a `BOOL`, but the current result is `{}`", known.scalar)
             });
@@ -166,10 +166,9 @@ impl Typing<'_> {
         if let Err(known) = self.types.unify(result, other) {
             let (left, right) = *known;
             let mut diagnostic = Diagnostic::new(Code::TypesDiffer, span, message(&left));
-            for known in [&right, &left] {
+            for known in [&right, &left].into_iter().filter(|known| !known.is_nowhere()) {
                 let text = format!("of type `{}`", known.scalar);
-                diagnostic =
-                    if known.span == span { diagnostic.here(text) } else { diagnostic.also(known.span, text) };
+                diagnostic = if known.span == span { diagnostic.here(text) } else { diagnostic.also(known.span, text) };
             }
             let help = conversion(&left, &right);
             self.diagnostics.push(match help {
@@ -214,9 +213,10 @@ impl Typing<'_> {
 /// How to get from one type to the other, if there is a function for that.
 fn conversion(left: &Known, right: &Known) -> Option<String> {
     let plain = left.scalar.enumeration.is_none() && right.scalar.enumeration.is_none();
-    plain.then(|| {
-        let (from, to) = (right.scalar.ty, left.scalar.ty);
-        format!("convert one of them, like with `{from}_TO_{to}`")
+    let (from, to) = (right.scalar.ty, left.scalar.ty);
+    plain.then(|| match from.is_bool() != to.is_bool() {
+        true => "a comparison, like `NE`, makes a `BOOL` of other values".to_owned(),
+        false => format!("convert one of them, like with `{from}_TO_{to}`"),
     })
 }
 

@@ -25,8 +25,8 @@ impl Typing<'_> {
         let context = self.context;
         let is_variable = context.project.variable(context.id, &path.root.text).is_some();
         if let (false, Some(name)) = (is_variable, path.plain()) {
-            let mut enumerators = context.project.enumerators(&name.text);
-            if let (Some((enumeration, _)), true) = (enumerators.pop(), enumerators.is_empty()) {
+            let enumerators = context.project.enumerators(&name.text);
+            if let [(enumeration, _)] = enumerators.as_slice() {
                 let scalar = enumerated(enumeration.clone());
                 let text = format!("{}#{}", enumeration.name, name.text);
                 let literal = Literal::Enumerated(enumeration.name.clone(), name.text.clone());
@@ -245,8 +245,7 @@ impl Typing<'_> {
                 let place = self.place(path, Use::Read)?;
                 self.elementary(&place, path)?;
                 let scalar = place.scalar();
-                let is_number =
-                    matches!(scalar.ty.kind, Kind::Signed | Kind::Unsigned) && scalar.enumeration.is_none();
+                let is_number = matches!(scalar.ty.kind, Kind::Signed | Kind::Unsigned) && scalar.enumeration.is_none();
                 if !is_number {
                     let message = format!("`{path}` is of type `{scalar}` and can be no index");
                     self.diagnostics

@@ -1,10 +1,11 @@
 //! Calls of standard functions (2.5.1.5), which take values of many types.
 
 use super::Typing;
+use super::calls::plural;
 use super::operators;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::semantics::function::Function;
-use crate::semantics::inference::Class;
+use crate::semantics::inference::{Class, NOWHERE};
 use crate::semantics::program::{Action, Enable, Feed, FeedSource, Standard, StandardFunction, TypeId};
 use crate::semantics::shape::Scalar;
 use crate::semantics::types::Type;
@@ -95,9 +96,9 @@ impl Typing<'_> {
         let Some(feeds) = self.standard_arguments(name, &signature, arguments, span, result, &mut enable) else {
             return (None, value);
         };
-        let own = self.types.of(&Scalar::new(from), span);
+        let own = self.types.of(&Scalar::new(from), NOWHERE);
         self.same(own, feeds[0].ty, feeds[0].span, |_| {
-            format!("`{}` takes a `{from}`, and this is of another type", name.text)
+            format!("`{}` takes `{from}`, and this is of another type", name.text)
         });
         let standard = Standard { function: StandardFunction::Convert, ty: value, arguments: feeds, enable };
         (Some(Action::Standard(Box::new(standard))), value)
@@ -165,7 +166,8 @@ impl Typing<'_> {
         if !fits || feeds.iter().any(Option::is_none) {
             let given = feeds.iter().flatten().count();
             let least = if signature.many { "at least " } else { "" };
-            let message = format!("`{}` takes {least}{needed} values, here are {given}", name.text);
+            let (takes, verb) = (plural(needed, "value"), if given == 1 { "is" } else { "are" });
+            let message = format!("`{}` takes {least}{takes}, but {given} {verb} given", name.text);
             let list = signature.inputs.join(", ") + if signature.many { ", …" } else { "" };
             let help = match arguments.enclosed {
                 true => format!("they are {list}"),
@@ -214,7 +216,7 @@ impl Typing<'_> {
                 ty
             }
             StandardFunction::Sel => {
-                let boolean = self.types.boolean(feeds[0].span);
+                let boolean = self.types.boolean(NOWHERE);
                 self.same(boolean, feeds[0].ty, feeds[0].span, |_| format!("`{word}` chooses by a `BOOL`"));
                 alike(self, &feeds[1..])
             }
