@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::shape::Shape;
+use super::typing::is_standard;
 use crate::syntax::ast::{Condition, Instruction, Operand, Operation, Part, Path, Verb};
 
 /// What the current result is behind an instruction.
@@ -32,7 +33,11 @@ pub fn effect(instruction: &Instruction, context: &Context<'_>) -> (bool, Leaves
             (*condition != Condition::Always, Leaves::Same)
         }
         Some(Operation::Call { condition, .. }) => (*condition != Condition::Always, Leaves::Nothing),
-        Some(Operation::Function { arguments, .. }) => (!arguments.enclosed, Leaves::Value),
+        Some(Operation::Function { name, arguments }) => {
+            // Of a word that nobody knows, nobody knows what it would use.
+            let is_known = context.project.find(&name.text).is_some() || is_standard(&name.key());
+            (is_known && !arguments.enclosed, Leaves::Value)
+        }
         Some(Operation::Broken) => (false, Leaves::Value),
         None => (false, Leaves::Same),
     }

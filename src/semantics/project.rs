@@ -472,7 +472,8 @@ fn instance(declaration: &Declaration, block: &VarBlock, shape: &Shape, in_funct
 
 /// Types that have the name of a unit, or of a type that exists already.
 fn names_of_types<'a>(unit: &'a Unit, pous: &'a [&Pou]) -> impl Iterator<Item = Diagnostic> + 'a {
-    unit.types.iter().filter_map(|declaration| {
+    let by_name: BTreeMap<String, &Pou> = pous.iter().rev().map(|pou| (pou.name.key(), *pou)).collect();
+    unit.types.iter().filter_map(move |declaration| {
         let name = &declaration.name;
         let message = |what: String| {
             Diagnostic::new(Code::PouDeclaredTwice, name.span, format!("`{}` is the name of {what}", name.text))
@@ -480,7 +481,7 @@ fn names_of_types<'a>(unit: &'a Unit, pous: &'a [&Pou]) -> impl Iterator<Item = 
         if Type::named(&name.text).is_some() {
             return Some(message("an elementary type".to_owned()).help("give the type another name"));
         }
-        let pou = pous.iter().find(|pou| pou.name.key() == name.key())?;
+        let pou = by_name.get(&name.key())?;
         Some(message(format!("a `{}`, too", pou.kind)).also(pou.name.span, "defined here").help("rename one of them"))
     })
 }

@@ -68,7 +68,7 @@ fn deep_parentheses_are_refused() {
     body_is_refused(&format!("LD a\n{}\nST q", "AND(".repeat(MANY)), "6:797", &["E0104", "E0106"]);
     body_is_refused(&format!("LD a\n{close}ST q"), "6:1", &["E0105", "closes nothing", "99900 more"]);
     body_is_refused(&format!("LD {}", "(".repeat(MANY)), "5:5", &["E0102"]);
-    body_is_refused(&format!("LD a[{}", "[".repeat(MANY)), "5:5", &["E0102"]);
+    body_is_refused(&format!("LD a[{}", "[".repeat(MANY)), "5:6", &["E0102"]);
     // What is not too deep is accepted.
     is_accepted(program(&format!("LD a\n{}{}ST q", "AND( b\n".repeat(200), ")\n".repeat(200))));
 }
@@ -92,7 +92,7 @@ fn long_files_of_mistakes_are_refused_with_the_first_hundred() {
     is_refused(format!("PROGRAM p\nVAR\n{}END_VAR\nEND_PROGRAM", "x y;\n".repeat(MANY)), "3:3", &["E0102", &more]);
     is_refused(format!("PROGRAM p\nVAR\n{}END_VAR\nEND_PROGRAM", "x : BOOL;\n".repeat(MANY)), "4:1", &["E0201"]);
     is_refused("PROGRAM p END_PROGRAM\n".repeat(MANY), "2:9", &["E0111"]);
-    is_refused("FUNCTION f : BOOL END_FUNCTION\n".repeat(MANY), "1:10", &["E0108"]);
+    is_refused("FUNCTION f : BOOL END_FUNCTION\n".repeat(MANY), "2:10", &["E0215"]);
     is_refused("VAR\n".repeat(MANY), "1:1", &["E0102"]);
     is_refused(format!("PROGRAM p\n{}", "VAR\n".repeat(MANY)), "2:1", &["E0107"]);
 }
@@ -161,5 +161,5 @@ fn duplicates_are_refused() {
 fn what_is_not_there_is_refused() {
     body_is_refused("LD c\nST q", "5:4", &["E0202"]);
     body_is_refused("LD a\nJMPC nowhere\nST q", "6:6", &["E0306", "nowhere"]);
-    body_is_refused("LD a\nCAL timer", "6:1", &["E0301", "timer"]);
+    body_is_refused("LD a\nCAL timer", "6:5", &["E0202", "timer"]);
 }

@@ -7,6 +7,8 @@ mod standard;
 #[cfg(test)]
 mod tests;
 
+pub use standard::is_standard;
+
 use std::collections::BTreeMap;
 
 use petgraph::graph::NodeIndex;
@@ -37,6 +39,7 @@ pub fn unit(context: &Context<'_>) -> Typed {
         diagnostics: Vec::new(),
         unknown: BTreeMap::new(),
         positions: Vec::new(),
+        unknown_words: 0,
     };
     let body = typing.list();
     let (types, literals, more) = typing.types.settle();
@@ -54,6 +57,8 @@ struct Typing<'a> {
     unknown: BTreeMap<String, (Name, usize)>,
     /// Labels that stand alone vanish: instruction i of the text is statement `positions[i]`.
     positions: Vec<usize>,
+    /// How many instructions begin with a word nobody knows.
+    unknown_words: usize,
 }
 
 impl Typing<'_> {

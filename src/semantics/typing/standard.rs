@@ -258,7 +258,8 @@ impl Typing<'_> {
         let own = context.project.unit.pous.iter().map(|pou| pou.name.text.as_str());
         let message = format!("`{}` is neither an operator nor a function that is known", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownOperator, name.span, message);
-        let position = self.diagnostics.iter().filter(|d| d.code == Code::UnknownOperator).count();
+        let position = self.unknown_words;
+        self.unknown_words += 1;
         self.diagnostics.push(diagnostic.suggest_at(position, &name.text, WORDS.iter().copied().chain(own)));
     }
 }
@@ -269,6 +270,11 @@ const WORDS: [&str; 41] = [
     "DIV", "MOD", "GT", "GE", "EQ", "NE", "LE", "LT", "JMP", "JMPC", "JMPCN", "RET", "RETC", "RETCN", "CAL", "CALC",
     "CALCN", "ABS", "MIN", "MAX", "LIMIT", "SEL", "MUX", "MOVE",
 ];
+
+/// Whether a word in capital letters is the name of a standard function.
+pub fn is_standard(word: &str) -> bool {
+    conversion(word).is_some() || signature(word).is_some()
+}
 
 /// The input of a formal call, by its position.
 fn position(name: &str, signature: &Signature) -> Option<usize> {
