@@ -51,7 +51,7 @@ fn of_arguments<'a>(
     let section = |name: &str| symbols.and_then(|symbols| Some(symbols.find(name)?.1.section));
     let mut in_order = symbols
         .into_iter()
-        .flat_map(|symbols| symbols.list())
+        .flat_map(super::symbols::Symbols::list)
         .map(|symbol| symbol.section)
         .filter(|section| matches!(section, Section::Input | Section::InOut))
         .skip(usize::from(!arguments.enclosed));
