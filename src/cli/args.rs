@@ -47,6 +47,8 @@ pub enum Verb {
     /// Work on any safe Petri net.
     #[command(subcommand)]
     Net(NetVerb),
+    /// Explain a code like E0201 that stands in a message.
+    Explain(Explain),
 }
 
 /// `petril check`
@@ -250,4 +252,12 @@ pub struct NetInfo {
     /// Limits of the exploration.
     #[command(flatten)]
     pub limits: Limits,
+}
+
+/// `petril explain`
+#[derive(Debug, clap::Args)]
+pub struct Explain {
+    /// The code, in capital or small letters. Without one, all codes are listed.
+    #[arg(value_name = "CODE")]
+    pub code: Option<String>,
 }

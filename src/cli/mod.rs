@@ -6,6 +6,7 @@ mod args;
 mod check;
 mod console;
 mod draw;
+mod explain;
 mod flat;
 mod input;
 mod input_table;
@@ -67,6 +68,7 @@ pub fn run() -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(&arguments, &console),
         Verb::Draw(arguments) => draw::run(&arguments, &console),
         Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
+        Verb::Explain(arguments) => explain::run(&arguments, &console),
     };
     match outcome {
         Ok(code) => code,

@@ -111,9 +111,11 @@ codes! {
     VariableNotWritten = "W0223",
     /// An output is never written.
     OutputNotWritten = "W0224",
+    /// An instance of a function block stands where it cannot keep its state.
+    InstanceUnfit = "E0225",
+    /// An in-out variable has no caller whose variable it could stand for.
+    InOutWithoutCaller = "E0226",
 
-    /// An operator is not supported.
-    OperatorNotSupported = "E0301",
     /// An operand is missing, or stands where none belongs.
     OperandCount = "E0302",
     /// An operand is not of a kind the operator takes.
@@ -144,7 +146,7 @@ codes! {
     OperatorUnfit = "E0315",
     /// A variable has no such member.
     MemberUnknown = "E0316",
-    /// A variable has no such dimensions.
+    /// A variable is not an array of so many dimensions.
     IndexCount = "E0317",
     /// An index is outside its array.
     IndexOutside = "E0318",

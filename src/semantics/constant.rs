@@ -28,6 +28,9 @@ pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
         (Some(Literal::Integer(value)), None) if ty.kind != Kind::Time => *value,
         _ => return Err(none()),
     };
+    if !ty.holds(number) && ty.is_bool() {
+        return Err(none());
+    }
     if !ty.holds(number) {
         let (least, greatest) = (ty.least(), ty.greatest());
         return Err(format!("is no value of type `{ty}`, which goes from {least} to {greatest}"));
@@ -36,6 +39,17 @@ pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
         Some((lower, upper)) if !(lower..=upper).contains(&number) => Err(format!("is outside {lower}..{upper}")),
         _ => Ok(number),
     }
+}
+
+/// The next type of the same kind that has a literal.
+pub fn wider(constant: &Constant, scalar: &Scalar) -> Option<Type> {
+    let Some(Literal::Integer(number)) = constant.literal else { return None };
+    let ty = scalar.ty;
+    let mut types = Type::ALL.iter().map(|&(_, ty)| ty).filter(|other| other.kind == ty.kind && other.width > ty.width);
+    if ty.holds(number) || ty.kind == Kind::Time {
+        return None;
+    }
+    types.find(|ty| scalar.enumeration.is_none() && ty.holds(number))
 }
 
 /// Microseconds in whole milliseconds.

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::constant::number;
+use super::constant::{number, wider};
 use super::shape::{Enumeration, Member, PouId, Scalar, Shape, Structure, Value, elements};
-use super::symbols::Symbols;
+use super::symbols::{Section, Symbol, Symbols};
 use super::types::{Kind, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -13,6 +13,9 @@ use crate::syntax::ast::{Initial, InitialKind, Literal, Name, Range, TypeDeclara
 
 /// A variable may have as many values as this.
 const MAX_ELEMENTS: usize = 1 << 16;
+
+/// A type may be made of types that are made of types …, as deep as this.
+const MAX_DEPTH: usize = 100;
 
 /// The types of a file, and what else a declaration may name.
 pub struct Declare<'a> {
@@ -23,11 +26,28 @@ pub struct Declare<'a> {
     /// Every enumeration, for the names of its values.
     pub enumerations: Vec<Rc<Enumeration>>,
     pub diagnostics: Vec<Diagnostic>,
+    /// Whether the unit that is read is a function.
+    pub in_function: bool,
+    /// The variables of the units, once they are known.
+    known: Option<Vec<Symbols>>,
+}
+
+/// The variables that a declaration may name: those before it, and global ones.
+pub struct Scope<'a> {
+    pub own: &'a Symbols,
+    pub globals: &'a Symbols,
+}
+
+impl Scope<'_> {
+    fn find(&self, name: &str) -> Option<&Symbol> {
+        self.own.find(name).or_else(|| self.globals.find(name)).map(|(_, symbol)| symbol)
+    }
 }
 
 impl<'a> Declare<'a> {
-    /// The types of a file; `blocks` are the function blocks that exist.
-    pub fn new(types: &'a [TypeDeclaration], blocks: &'a BTreeMap<String, PouId>) -> Self {
+    /// The types of a file; `blocks` are the function blocks that exist, `known` the variables of all units, once they have
+    /// been read.
+    pub fn new(types: &'a [TypeDeclaration], blocks: &'a BTreeMap<String, PouId>, known: Option<Vec<Symbols>>) -> Self {
         let mut declare = Self {
             declared: BTreeMap::new(),
             resolved: BTreeMap::new(),
@@ -35,15 +55,18 @@ impl<'a> Declare<'a> {
             blocks,
             enumerations: Vec::new(),
             diagnostics: Vec::new(),
+            in_function: false,
+            known,
         };
         for declaration in types {
             let name = &declaration.name;
-            if let Some(first) = declare.declared.insert(name.key(), declaration) {
+            let first = *declare.declared.entry(name.key()).or_insert(declaration);
+            if first.name.span != name.span {
                 declare.report(
                     Code::PouDeclaredTwice,
                     name.span,
                     format!("the type `{}` is declared twice", name.text),
-                    |d| d.also(first.name.span, "first declared here"),
+                    |d| d.also(first.name.span, "first declared here").help("rename one of them"),
                 );
             }
         }
@@ -58,7 +81,7 @@ impl<'a> Declare<'a> {
     }
 
     /// What a type specification stands for, and the value that its variables have at power-on. `None` has been reported.
-    pub fn shape(&mut self, spec: &TypeSpec, constants: &Symbols) -> Option<(Shape, Value)> {
+    pub fn shape(&mut self, spec: &TypeSpec, constants: &Scope<'_>) -> Option<(Shape, Value)> {
         match spec {
             TypeSpec::Named(name) => self.named(name),
             TypeSpec::Subrange { base, range } => {
@@ -86,7 +109,8 @@ impl<'a> Declare<'a> {
                 for range in ranges {
                     let (lower, upper) = self.range(range, constants)?;
                     let whole = i64::try_from(lower).ok().zip(i64::try_from(upper).ok());
-                    numbers.extend(whole.filter(|(lower, upper)| upper - lower < MAX_ELEMENTS as i64));
+                    let length = upper.checked_sub(lower).filter(|&length| length < MAX_ELEMENTS as i128);
+                    numbers.extend(length.and(whole));
                 }
                 let (of, initial) = self.shape(of, constants)?;
                 let count = numbers.iter().try_fold(leaves(&of), |n, (lower, upper)| {
@@ -102,15 +126,15 @@ impl<'a> Declare<'a> {
                 let initial = repeated(&initial, elements(&numbers));
                 Some((Shape::Array { ranges: numbers, of: Box::new(of) }, initial))
             }
-            TypeSpec::Structure { members, .. } => self.structure("a structure", members, constants),
+            TypeSpec::Structure { members, span } => self.structure(("a structure", *span), members, constants),
         }
     }
 
     fn structure(
         &mut self,
-        name: &str,
+        (name, span): (&str, Span),
         declarations: &[crate::syntax::ast::Declaration],
-        constants: &Symbols,
+        constants: &Scope<'_>,
     ) -> Option<(Shape, Value)> {
         let mut members: Vec<Member> = Vec::new();
         for declaration in declarations {
@@ -128,7 +152,15 @@ impl<'a> Declare<'a> {
                 members.push(Member { name: name.text.clone(), shape: shape.clone(), initial: initial.clone() });
             }
         }
-        Some((Shape::Structure(Rc::new(Structure { name: name.to_owned(), members })), Value::Default))
+        let shape = Shape::Structure(Rc::new(Structure { name: name.to_owned(), members }));
+        if leaves(&shape) > MAX_ELEMENTS {
+            let message = format!("this structure has more than {MAX_ELEMENTS} values");
+            self.report(Code::VariableTooLarge, span, message, |d| {
+                d.help("make its arrays as large as the program needs them")
+            });
+            return None;
+        }
+        Some((shape, Value::Default))
     }
 
     fn enumeration(&mut self, name: Option<&str>, values: &[Name]) -> Option<(Shape, Value)> {
@@ -158,16 +190,25 @@ impl<'a> Declare<'a> {
         if let Some(known) = self.resolved.get(&key) {
             return known.clone();
         }
-        if let Some(&block) = self.blocks.get(&key) {
-            return Some((Shape::Instance(block), Value::Default));
-        }
+        // A type of the file comes before a function block of the library.
         let Some(&declaration) = self.declared.get(&key) else {
-            self.unknown(name);
-            return None;
+            let block = self.blocks.get(&key).map(|&block| (Shape::Instance(block), Value::Default));
+            if block.is_none() {
+                self.unknown(name);
+            }
+            return block;
         };
+        if self.open.len() >= MAX_DEPTH {
+            let message = format!("types are nested more than {MAX_DEPTH} deep here");
+            self.report(Code::VariableTooLarge, name.span, message, |d| d);
+            return None;
+        }
         if self.open.contains(&key) {
             let message = format!("the type `{}` contains itself", name.text);
-            self.report(Code::TypeRecursive, name.span, message, |d| d.also(declaration.name.span, "declared here"));
+            self.report(Code::TypeRecursive, name.span, message, |d| {
+                d.also(declaration.name.span, "declared here")
+                    .help("refer to another one by a number, like its index in an array")
+            });
             return None;
         }
         self.open.push(key.clone());
@@ -178,10 +219,13 @@ impl<'a> Declare<'a> {
     }
 
     fn declaration(&mut self, declaration: &TypeDeclaration) -> Option<(Shape, Value)> {
-        let none = Symbols::default();
+        let nothing = Symbols::default();
+        let none = Scope { own: &nothing, globals: &nothing };
         let (mut shape, default) = match declaration.spec.as_ref()? {
             TypeSpec::Enumeration(values) => self.enumeration(Some(&declaration.name.text), values)?,
-            TypeSpec::Structure { members, .. } => self.structure(&declaration.name.text, members, &none)?,
+            TypeSpec::Structure { members, .. } => {
+                self.structure((&declaration.name.text, declaration.name.span), members, &none)?
+            }
             other => self.shape(other, &none)?,
         };
         let value = match &declaration.initial {
@@ -226,11 +270,11 @@ impl<'a> Declare<'a> {
     }
 
     /// The numbers of a range, which is not empty.
-    fn range(&mut self, range: &Range, constants: &Symbols) -> Option<(i128, i128)> {
+    fn range(&mut self, range: &Range, constants: &Scope<'_>) -> Option<(i128, i128)> {
         let mut end = |bound: &Name| {
             let number = match Literal::read(&bound.text) {
                 Some(Literal::Integer(number) | Literal::Typed(_, number)) => Some(number),
-                _ => constants.find(&bound.text).and_then(|(_, symbol)| constant(symbol)),
+                _ => constants.find(&bound.text).and_then(constant),
             };
             if number.is_none() {
                 let message = format!("`{}` is no number that is known here", bound.text);
@@ -254,9 +298,9 @@ impl<'a> Declare<'a> {
     }
 
     /// A value written for a shape. `None` has been reported.
-    pub fn value(&mut self, initial: &Initial, shape: &Shape, constants: &Symbols) -> Option<Value> {
+    pub fn value(&mut self, initial: &Initial, shape: &Shape, constants: &Scope<'_>) -> Option<Value> {
         let unfit = |what: &str| {
-            let message = format!("{what} is no value of {shape}");
+            let message = format!("{what} is no value of type `{shape}`");
             Diagnostic::new(Code::InitialValueUnfit, initial.span, message)
         };
         match (&initial.kind, shape) {
@@ -265,11 +309,13 @@ impl<'a> Declare<'a> {
                 Err(why) => {
                     let message = format!("`{}` {why}", constant.text);
                     let diagnostic = Diagnostic::new(Code::InitialValueUnfit, initial.span, message);
-                    let is_bool = scalar.ty.is_bool();
-                    self.diagnostics.push(if is_bool {
-                        diagnostic.help("write `TRUE` or `FALSE`")
-                    } else {
-                        diagnostic
+                    self.diagnostics.push(match wider(constant, scalar) {
+                        _ if scalar.ty.is_bool() => diagnostic.help("write `TRUE` or `FALSE`"),
+                        Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
+                        None if scalar.ty == Type::TIME && matches!(constant.literal, Some(Literal::Integer(_))) => {
+                            diagnostic.help(format!("write a time, like `T#{}ms`", constant.text))
+                        }
+                        None => diagnostic,
                     });
                     None
                 }
@@ -278,15 +324,16 @@ impl<'a> Declare<'a> {
                 let name = path.to_string();
                 let value = scalar.enumeration.as_ref().and_then(|values| values.find(&name)).map(|n| n as u64);
                 let named = || {
-                    let (_, symbol) = constants.find(&name)?;
+                    let symbol = constants.find(&name)?;
                     let same = symbol.shape.as_ref()?.scalar()?.ty == scalar.ty;
                     constant(symbol).filter(|&n| same && scalar.range.is_none_or(|(l, u)| (l..=u).contains(&n)))
                 };
                 let value = value.or_else(|| named().map(|number| scalar.ty.pattern(number)));
                 if value.is_none() {
-                    self.diagnostics.push(
-                        unfit(&format!("`{name}`")).help("write a literal, or the name of a constant declared before"),
-                    );
+                    self.diagnostics.push(unfit(&format!("`{name}`")).help(match scalar.ty.is_bool() {
+                        true => "write `TRUE` or `FALSE`, or the name of a constant declared before",
+                        false => "write a literal, or the name of a constant declared before",
+                    }));
                 }
                 value.map(Value::Scalar)
             }
@@ -324,6 +371,15 @@ impl<'a> Declare<'a> {
                 }
                 Some(Value::Parts(parts))
             }
+            (InitialKind::Structure(given), Shape::Instance(id)) => {
+                let Some(known) = &self.known else { return Some(Value::Default) };
+                let symbols = known[id.0].clone();
+                let mut parts = Vec::new();
+                for (name, value) in given {
+                    parts.push(self.input(name, value, &symbols, constants)?);
+                }
+                Some(Value::Parts(parts))
+            }
             (InitialKind::Constant(constant), _) => {
                 let diagnostic = unfit(&format!("`{}`", constant.text));
                 self.diagnostics.push(diagnostic.help("write `[1, 2, 3]` for an array, `(a := 1)` for a structure"));
@@ -337,13 +393,25 @@ impl<'a> Declare<'a> {
     }
 }
 
+impl Declare<'_> {
+    /// The value that an instance's declaration gives one of its variables.
+    fn input(&mut self, name: &Name, value: &Initial, symbols: &Symbols, scope: &Scope<'_>) -> Option<(usize, Value)> {
+        let is_seen = |symbol: &Symbol| matches!(symbol.section, Section::Input | Section::Output);
+        let Some((position, symbol)) = symbols.find(&name.text).filter(|(_, symbol)| is_seen(symbol)) else {
+            let message = format!("the function block has no input or output `{}`", name.text);
+            let names = symbols.list().iter().filter(|symbol| is_seen(symbol)).map(|symbol| symbol.name.as_str());
+            self.diagnostics.push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
+            return None;
+        };
+        Some((position, self.value(value, symbol.shape.as_ref()?, scope)?))
+    }
+}
+
 /// The number of a constant's value, if it is known.
-fn constant(symbol: &super::symbols::Symbol) -> Option<i128> {
+fn constant(symbol: &Symbol) -> Option<i128> {
     let scalar = symbol.shape.as_ref()?.scalar()?;
     match symbol.initial {
-        Value::Scalar(pattern) if symbol.section == super::symbols::Section::Constant => {
-            Some(scalar.ty.number(pattern))
-        }
+        Value::Scalar(pattern) if symbol.section == Section::Constant => Some(scalar.ty.number(pattern)),
         _ => None,
     }
 }
@@ -360,7 +428,9 @@ fn leaves(shape: &Shape) -> usize {
     match shape {
         Shape::Scalar(_) | Shape::Instance(_) => 1,
         Shape::Array { ranges, of } => elements(ranges).saturating_mul(leaves(of)),
-        Shape::Structure(structure) => structure.members.iter().map(|member| leaves(&member.shape)).sum(),
+        Shape::Structure(structure) => {
+            structure.members.iter().fold(0, |sum, member| sum.saturating_add(leaves(&member.shape)))
+        }
     }
 }
 

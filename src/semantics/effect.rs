@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::shape::Shape;
+use super::typing::is_standard;
 use crate::syntax::ast::{Condition, Instruction, Operand, Operation, Part, Path, Verb};
 
 /// What the current result is behind an instruction.
@@ -32,9 +33,10 @@ pub fn effect(instruction: &Instruction, context: &Context<'_>) -> (bool, Leaves
             (*condition != Condition::Always, Leaves::Same)
         }
         Some(Operation::Call { condition, .. }) => (*condition != Condition::Always, Leaves::Nothing),
-        // Of a name nobody knows it is enough to say so.
         Some(Operation::Function { name, arguments }) => {
-            (!arguments.enclosed && context.project.is_function(&name.text), Leaves::Value)
+            // Of a word that nobody knows, nobody knows what it would use.
+            let is_known = context.project.find(&name.text).is_some() || is_standard(&name.key());
+            (is_known && !arguments.enclosed, Leaves::Value)
         }
         Some(Operation::Broken) => (false, Leaves::Value),
         None => (false, Leaves::Same),

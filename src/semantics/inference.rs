@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::constant::number;
+use super::constant::{number, wider};
 use super::program::TypeId;
 use super::shape::{Enumeration, Scalar};
 use super::types::{Kind, Type};
@@ -19,6 +19,16 @@ pub struct Known {
     pub scalar: Scalar,
     pub span: Span,
 }
+
+impl Known {
+    /// Whether it is the language that says so, and no place in the text.
+    pub fn is_nowhere(&self) -> bool {
+        self.span == NOWHERE
+    }
+}
+
+/// Where nothing stands.
+pub const NOWHERE: Span = Span { start: 0, end: 0 };
 
 /// A set of types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,8 +134,12 @@ impl Inference {
             return Err(Box::new((left.clone(), right.clone())));
         }
         if a != b {
-            // What was known first is where people look.
-            if self.known[a].is_none() {
+            // What stands first is where people look.
+            let later = match (&self.known[a], &self.known[b]) {
+                (Some(left), Some(right)) => !right.is_nowhere() && (left.is_nowhere() || right.span < left.span),
+                (left, _) => left.is_none(),
+            };
+            if later {
                 self.known[a] = self.known[b].take();
             }
             self.parent[b] = a;
@@ -142,7 +156,7 @@ impl Inference {
             if let Some(known) = self.known[root].as_ref().filter(|known| !class.has(&known.scalar)) {
                 let message = format!("`{operator}` has no meaning for `{}`", known.scalar);
                 let diagnostic = Diagnostic::new(Code::OperatorUnfit, span, message);
-                let diagnostic = if known.span == span {
+                let diagnostic = if known.span == span || known.is_nowhere() {
                     diagnostic
                 } else {
                     diagnostic.also(known.span, format!("of type `{}`", known.scalar))
@@ -161,10 +175,15 @@ impl Inference {
                     patterns.push(0);
                     let message = format!("`{}` {why}", constant.text);
                     let diagnostic = Diagnostic::new(Code::LiteralUnfit, constant.span, message);
-                    found.push(if scalar.ty.is_bool() {
-                        diagnostic.help("Boolean literals are `TRUE` and `FALSE`, or `1` and `0`")
-                    } else {
-                        diagnostic
+                    found.push(match wider(&constant, &scalar) {
+                        _ if scalar.ty.is_bool() => {
+                            diagnostic.help("Boolean literals are `TRUE` and `FALSE`, or `1` and `0`")
+                        }
+                        Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
+                        None if scalar.ty == Type::TIME && matches!(constant.literal, Some(Literal::Integer(_))) => {
+                            diagnostic.help(format!("write a time, like `T#{}ms`", constant.text))
+                        }
+                        None => diagnostic,
                     });
                 }
             }

@@ -7,7 +7,7 @@ mod constant;
 mod control_flow;
 mod declare;
 mod effect;
-mod expansion;
+mod extent;
 mod function;
 mod inference;
 mod interval;
@@ -37,8 +37,6 @@ mod rule_variables_used;
 
 #[cfg(test)]
 mod testing;
-#[cfg(test)]
-mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,15 +75,16 @@ const RULES: &[Rule] = &[
     rule_control_outside_parentheses::apply,
     rule_inputs_not_written::apply,
     rule_instructions_reachable::apply,
-    rule_jumps_forward::apply,
     rule_labels_defined::apply,
     rule_labels_unique::apply,
     rule_labels_used::apply,
     rule_parentheses_begin_with_value::apply,
     rule_result_defined::apply,
-    rule_results_used::apply,
-    rule_variables_used::apply,
 ];
+
+/// Rules about what is allowed and probably not meant. They look at programs without errors only: of a broken line nobody
+/// knows what it would have used.
+const DOUBTS: &[Rule] = &[rule_jumps_forward::apply, rule_results_used::apply, rule_variables_used::apply];
 
 /// Checks the program of a file with all it calls. It is `None` exactly if one of the diagnostics, or one found while
 /// reading the text, is an error; `clean` says that reading found none.
@@ -114,6 +113,8 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     };
     let Some(entry) = entry else { return (None, diagnostics) };
     let needed = project.reachable(entry, &mut diagnostics);
+    extent::check(&project, &needed, &mut diagnostics);
+    diagnostics.extend(without_caller(&project, entry));
     let mut pous: Vec<Pou> = project.pous.iter().enumerate().map(|(i, pou)| empty(&project, PouId(i), pou)).collect();
     for &id in &needed {
         let pou = project.pou(id);
@@ -121,8 +122,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
             diagnostics.push(foreign(pou, language, *span));
             continue;
         }
-        let labels = control_flow::labels(&pou.body);
-        let context = Context { project: &project, id, pou, symbols: project.symbols(id), labels };
+        let context = project.context(id);
         let typed = typing::unit(&context);
         if !project.is_library(id) {
             diagnostics.append(&mut of_units[id.0]);
@@ -133,37 +133,20 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
         pous[id.0].types = typed.types;
         pous[id.0].literals = typed.literals;
     }
-    diagnostics.extend(not_checked(&project, &needed));
     let interval = interval::of(unit, &project.pou(entry).name, &mut diagnostics);
+    if clean && !any_error(&diagnostics) {
+        diagnostics.extend(not_checked(&project, &needed));
+        let own = needed.iter().filter(|&&id| !project.is_library(id)).map(|&id| project.context(id));
+        diagnostics
+            .extend(own.flat_map(|context| DOUBTS.iter().flat_map(move |rule| rule(&context)).collect::<Vec<_>>()));
+    }
     diagnostics.sort_by_key(Diagnostic::span);
     diagnostics.dedup();
     if !clean || any_error(&diagnostics) {
-        // What is not used may be used where the errors are.
-        diagnostics.retain(|diagnostic| !is_about_use(diagnostic.code));
         return (None, diagnostics);
     }
     let globals = variables(&project.globals);
-    let program = Program { pous, entry, globals, interval };
-    if let Some(what) = expansion::too_large(&program, &needed) {
-        let name = &project.pou(entry).name;
-        let message = format!("`{}` has {what} when its calls are written out", name.text);
-        let help = "every call is modelled by instructions of its own; check its parts one by one";
-        diagnostics.push(Diagnostic::new(Code::ProgramTooLarge, name.span, message).help(help));
-        return (None, diagnostics);
-    }
-    (Some(program), diagnostics)
-}
-
-/// Whether a code is about something that is written and not used.
-fn is_about_use(code: Code) -> bool {
-    matches!(
-        code,
-        Code::VariableNotUsed
-            | Code::VariableNotWritten
-            | Code::OutputNotWritten
-            | Code::ResultNotUsed
-            | Code::LabelNotUsed
-    )
+    (Some(Program { pous, entry, globals, interval }), diagnostics)
 }
 
 /// No unit of the file has the name that was asked for.
@@ -203,7 +186,8 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
         return Diagnostic::new(Code::OtherLanguage, span, message)
             .help("what it does is not in this file: put its instruction list there");
     }
-    let message = format!("`{}` is written in {language}, not in Instruction List", pou.name.text);
+    let how = if language.starts_with("a ") { "as" } else { "in" };
+    let message = format!("`{}` is written {how} {language}, not in Instruction List", pou.name.text);
     let help = match language {
         "Structured Text" => "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`",
         _ => "only Instruction List is read",
@@ -211,15 +195,31 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::OtherLanguage, span, message).help(help)
 }
 
+/// In-out variables of the unit that nothing calls.
+fn without_caller<'a>(project: &'a Project<'_>, entry: PouId) -> impl Iterator<Item = Diagnostic> + 'a {
+    let in_outs = project.symbols(entry).list().iter().filter(|symbol| symbol.section == Section::InOut);
+    in_outs.map(move |symbol| {
+        let pou = project.pou(entry);
+        let message =
+            format!("`{}` stands for a variable of the caller, but nothing calls `{}`", symbol.name, pou.name.text);
+        let help = match pou.kind {
+            PouKind::Program => "declare it in `VAR_INPUT`, `VAR_OUTPUT` or `VAR_EXTERNAL`",
+            _ => "write a `PROGRAM` that calls it with a variable",
+        };
+        Diagnostic::new(Code::InOutWithoutCaller, symbol.span, message).help(help)
+    })
+}
+
 /// Units of the file that are not needed.
 fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
     let needed: BTreeSet<PouId> = needed.iter().copied().collect();
     let others = project.unit.pous.iter().enumerate().filter(move |(i, pou)| {
-        !needed.contains(&PouId(*i)) && pou.kind != PouKind::Program && !pou.name.text.is_empty()
+        let counts = project.find(&pou.name.text) == Some(PouId(*i)) && pou.kind != PouKind::Program;
+        counts && !needed.contains(&PouId(*i)) && !pou.name.text.is_empty()
     });
     others.map(|(_, pou)| {
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
-        Diagnostic::new(Code::PouNotChecked, pou.name.span, message)
+        Diagnostic::new(Code::PouNotChecked, pou.name.span, message).help("call it, or check it in a file of its own")
     })
 }
 

@@ -3,15 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::declare::{Declare, enumerator};
-use super::library;
+use super::declare::{Declare, Scope, enumerator};
 use super::shape::{Enumeration, PouId, Scalar, Shape, Value};
 use super::symbols::{Area, Section, Symbol, Symbols, address};
 use super::types::{Kind, Type};
+use super::{Context, control_flow, library, uses};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{
-    Declaration, Name, Operand, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested,
-};
+use crate::syntax::ast::{Declaration, Name, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested};
 
 /// A file and the library.
 pub struct Project<'a> {
@@ -44,28 +42,21 @@ impl<'a> Project<'a> {
                     let message = format!("`{}` is defined twice", pou.name.text);
                     found.push(
                         Diagnostic::new(Code::PouDeclaredTwice, pou.name.span, message)
-                            .also(pous[*first].name.span, "first defined here"),
+                            .also(pous[*first].name.span, "first defined here")
+                            .help("rename one of them"),
                     );
                 }
                 Some(_) => {}
             }
         }
+        found.extend(names_of_types(unit, &pous[..own]));
         let is_block = |id: &PouId| pous[id.0].kind == PouKind::FunctionBlock;
         let blocks = by_name.iter().filter(|(_, id)| is_block(id)).map(|(name, id)| (name.clone(), *id)).collect();
-        let mut declare = Declare::new(&unit.types, &blocks);
-        let mut globals = Symbols::default();
-        unit.globals
-            .iter()
-            .for_each(|block| self::block(block, &mut globals, &Symbols::default(), &mut declare, false));
-        addresses(unit, &mut globals);
-        found.append(&mut declare.diagnostics);
-        let mut symbols = Vec::new();
-        let mut of_units = Vec::new();
-        for pou in &pous {
-            symbols.push(self::symbols(pou, &globals, &mut declare));
-            of_units.push(std::mem::take(&mut declare.diagnostics));
-        }
-        let enumerations = declare.enumerations;
+        // Initial values of instances name variables of units that may stand further down, so all is read twice.
+        let known = Declarations::of(unit, &pous, &blocks, None).symbols;
+        let read = Declarations::of(unit, &pous, &blocks, Some(known));
+        found.extend(read.found);
+        let Declarations { globals, symbols, enumerations, of_units, .. } = read;
         (Self { unit, pous, by_name, symbols, globals, enumerations, own }, found, of_units)
     }
 
@@ -74,18 +65,18 @@ impl<'a> Project<'a> {
         self.by_name.get(&crate::syntax::ast::key(name)).copied()
     }
 
-    /// Whether there is a function of this name, in the file or in the standard.
-    pub fn is_function(&self, name: &str) -> bool {
-        let own = self.find(name).is_some_and(|id| self.pou(id).kind == PouKind::Function);
-        own || super::typing::is_standard(name)
-    }
-
     pub fn pou(&self, id: PouId) -> &'a Pou {
         self.pous[id.0]
     }
 
     pub fn symbols(&self, id: PouId) -> &Symbols {
         &self.symbols[id.0]
+    }
+
+    /// What the rules look at.
+    pub fn context(&self, id: PouId) -> Context<'_> {
+        let pou = self.pou(id);
+        Context { project: self, id, pou, symbols: self.symbols(id), labels: control_flow::labels(&pou.body) }
     }
 
     /// Whether a unit belongs to the library.
@@ -101,6 +92,16 @@ impl<'a> Project<'a> {
     /// The enumerations that have a value of this name.
     pub fn enumerators(&self, name: &str) -> Vec<(Rc<Enumeration>, usize)> {
         enumerator(&self.enumerations, name)
+    }
+
+    /// The names of all enumerations.
+    pub fn enumeration_names(&self) -> impl Iterator<Item = &str> {
+        self.enumerations.iter().map(|enumeration| enumeration.name.as_str())
+    }
+
+    /// The names of the values of all enumerations.
+    pub fn enumerator_names(&self) -> impl Iterator<Item = &str> {
+        self.enumerations.iter().flat_map(|enumeration| &enumeration.values).map(String::as_str)
     }
 
     /// The variable a name stands for in a unit: its own, or a global one (as its position among these).
@@ -134,11 +135,11 @@ impl<'a> Project<'a> {
     pub fn reachable(&self, entry: PouId, found: &mut Vec<Diagnostic>) -> Vec<PouId> {
         let mut done = Vec::new();
         let mut open = Vec::new();
-        self.visit(entry, &mut open, &mut done, found);
         // Global variables may be instances too.
         let mut global = BTreeSet::new();
         self.globals.list().iter().filter_map(|symbol| symbol.shape.as_ref()).for_each(|s| instances(s, &mut global));
         global.into_iter().for_each(|id| self.visit(id, &mut open, &mut done, found));
+        self.visit(entry, &mut open, &mut done, found);
         done
     }
 
@@ -173,6 +174,35 @@ impl<'a> Project<'a> {
     }
 }
 
+/// What the declarations of a file say.
+struct Declarations {
+    globals: Symbols,
+    symbols: Vec<Symbols>,
+    enumerations: Vec<Rc<Enumeration>>,
+    /// What is wrong with types and global variables.
+    found: Vec<Diagnostic>,
+    /// What is wrong with each unit's variables.
+    of_units: Vec<Vec<Diagnostic>>,
+}
+
+impl Declarations {
+    /// Reads them; `known` are the variables of the units, if they have been read before.
+    fn of(unit: &Unit, pous: &[&Pou], blocks: &BTreeMap<String, PouId>, known: Option<Vec<Symbols>>) -> Self {
+        let mut declare = Declare::new(&unit.types, blocks, known);
+        let mut globals = Symbols::default();
+        let none = Symbols::default();
+        unit.globals.iter().for_each(|block| self::block(block, &mut globals, &none, &mut declare, false));
+        addresses(unit, &mut globals);
+        let found = std::mem::take(&mut declare.diagnostics);
+        let read = |pou: &&Pou| {
+            let symbols = symbols(pou, &globals, &mut declare);
+            (symbols, std::mem::take(&mut declare.diagnostics))
+        };
+        let (symbols, of_units) = pous.iter().map(read).unzip();
+        Self { globals, symbols, enumerations: declare.enumerations, found, of_units }
+    }
+}
+
 /// The function blocks that a shape holds instances of.
 fn instances(shape: &Shape, found: &mut BTreeSet<PouId>) {
     match shape {
@@ -191,17 +221,8 @@ fn addresses(unit: &Unit, globals: &mut Symbols) {
     for pou in &unit.pous {
         let declared = pou.blocks.iter().flat_map(|block| &block.declarations).filter_map(|d| d.location.as_ref());
         let declared: BTreeSet<String> = declared.map(|location| address(&location.text)).collect();
-        for (instruction, _) in with_nested(&pou.body) {
-            let used = match &instruction.operation {
-                Some(Operation::Simple { operands, .. }) => operands.as_slice(),
-                Some(Operation::Parenthesis { first, .. }) => first.as_slice(),
-                _ => &[],
-            };
-            paths.extend(used.iter().filter_map(|operand| match operand {
-                Operand::Variable(path) if !declared.contains(&address(&path.root.text)) => Some(path),
-                _ => None,
-            }));
-        }
+        let used = uses::operands(&pou.body);
+        paths.extend(used.into_iter().filter(|path| !declared.contains(&address(&path.root.text))));
     }
     for path in paths.into_iter().filter(|path| path.root.text.starts_with('%')) {
         let Some((area, ty)) = read_address(&path.root.text) else { continue };
@@ -257,6 +278,7 @@ fn symbols(pou: &Pou, globals: &Symbols, declare: &mut Declare<'_>) -> Symbols {
     if pou.kind == PouKind::Function {
         result(pou, &mut symbols, declare);
     }
+    declare.in_function = pou.kind == PouKind::Function;
     for block in &pou.blocks {
         let may_locate = pou.kind == PouKind::Program;
         self::block(block, &mut symbols, globals, declare, may_locate);
@@ -273,12 +295,15 @@ fn result(pou: &Pou, symbols: &mut Symbols, declare: &mut Declare<'_>) {
     let shape = match &pou.result {
         None => {
             let message = format!("the function `{}` has no result type", pou.name.text);
-            declare.diagnostics.push(report(message, "write it behind the name, like `FUNCTION f : INT`"));
+            declare
+                .diagnostics
+                .push(report(message, &format!("write it behind the name, like `FUNCTION {} : INT`", pou.name.text)));
             None
         }
         Some(result) => {
             let spec = crate::syntax::ast::TypeSpec::Named(result.clone());
-            match declare.shape(&spec, symbols).map(|(shape, _)| shape) {
+            let nothing = Symbols::default();
+            match declare.shape(&spec, &Scope { own: &nothing, globals: &nothing }).map(|(shape, _)| shape) {
                 Some(shape) if shape.scalar().is_none() => {
                     let message = format!("a function cannot return {shape}");
                     declare
@@ -338,12 +363,7 @@ fn declaration_of(
     declare: &mut Declare<'_>,
     may_locate: bool,
 ) {
-    let constants = |symbols: &Symbols| Symbols::clone(symbols);
-    let scope = if symbols.list().iter().any(|s| s.section == Section::Constant) {
-        constants(symbols)
-    } else {
-        globals.clone()
-    };
+    let scope = Scope { own: symbols, globals };
     let shaped = declaration.spec.as_ref().and_then(|spec| declare.shape(spec, &scope));
     let value = match (&declaration.initial, &shaped) {
         (Some(initial), Some((shape, _))) => declare.value(initial, shape, &scope),
@@ -354,6 +374,11 @@ fn declaration_of(
         let message = format!("`{}` is not supported", edge.key());
         let help = "declare an instance of R_TRIG or F_TRIG, and call it with the input";
         declare.diagnostics.push(Diagnostic::new(Code::DeclarationNotSupported, edge.span, message).help(help));
+    }
+    if let Some((shape, _)) = &shaped
+        && let Some(diagnostic) = instance(declaration, block, shape, declare.in_function)
+    {
+        declare.diagnostics.push(diagnostic);
     }
     for name in &declaration.names {
         let section = match block.kind {
@@ -423,12 +448,50 @@ fn declaration_of(
     }
 }
 
+/// An instance keeps its state from call to call, so it cannot stand where variables begin anew or are copied.
+fn instance(declaration: &Declaration, block: &VarBlock, shape: &Shape, in_function: bool) -> Option<Diagnostic> {
+    let mut inside = BTreeSet::new();
+    instances(shape, &mut inside);
+    let why = match block.kind {
+        _ if inside.is_empty() => return None,
+        VarKind::Temp => "`VAR_TEMP` variables begin anew with every call",
+        VarKind::Input | VarKind::Output => "inputs and outputs are copied with every call",
+        VarKind::Local if block.constant => "constants never change",
+        VarKind::Local if in_function => "the variables of a function begin anew with every call",
+        _ => return None,
+    };
+    let span = declaration.spec.as_ref()?.span();
+    let help = if in_function {
+        "make the function a function block, or hand the instance over in `VAR_IN_OUT`"
+    } else {
+        "declare it in `VAR`, or hand it over in `VAR_IN_OUT`"
+    };
+    let message = "an instance of a function block keeps its state, which it cannot do here";
+    Some(Diagnostic::new(Code::InstanceUnfit, span, message).here(why).help(help))
+}
+
+/// Types that have the name of a unit, or of a type that exists already.
+fn names_of_types<'a>(unit: &'a Unit, pous: &'a [&Pou]) -> impl Iterator<Item = Diagnostic> + 'a {
+    let by_name: BTreeMap<String, &Pou> = pous.iter().rev().map(|pou| (pou.name.key(), *pou)).collect();
+    unit.types.iter().filter_map(move |declaration| {
+        let name = &declaration.name;
+        let message = |what: String| {
+            Diagnostic::new(Code::PouDeclaredTwice, name.span, format!("`{}` is the name of {what}", name.text))
+        };
+        if Type::named(&name.text).is_some() {
+            return Some(message("an elementary type".to_owned()).help("give the type another name"));
+        }
+        let pou = by_name.get(&name.key())?;
+        Some(message(format!("a `{}`, too", pou.kind)).also(pou.name.span, "defined here").help("rename one of them"))
+    })
+}
+
 /// An external variable is what the global one is.
 fn external(name: &Name, symbol: &mut Symbol, global: Option<&Symbol>, declare: &mut Declare<'_>) {
     let Some(global) = global else { return };
     let (Some(own), Some(other)) = (&symbol.shape, &global.shape) else { return };
     if !own.same(other) {
-        let message = format!("`{}` is {own} here, but the global variable is {other}", name.text);
+        let message = format!("`{}` is `{own}` here, but the global variable is `{other}`", name.text);
         declare
             .diagnostics
             .push(Diagnostic::new(Code::TypesDiffer, name.span, message).also(global.span, "declared here"));
@@ -463,7 +526,9 @@ fn located(location: &Name, symbol: &Symbol, may_locate: bool, declare: &mut Dec
     let width = symbol.shape.as_ref().and_then(Shape::scalar).map(|scalar| scalar.ty.width);
     match (size, width) {
         (Some(size), Some(width)) if size.width != width => {
-            let message = format!("`{}` has {} bits, but `{}` needs {width}", location.text, size.width, symbol.name);
+            let bits = |n| if n == 1 { "1 bit".to_owned() } else { format!("{n} bits") };
+            let (own, needed) = (bits(size.width), bits(width));
+            let message = format!("`{}` has {own}, but `{}` needs {needed}", location.text, symbol.name);
             unfit(message, "X stands for one bit, B for 8, W for 16, D for 32, L for 64")
         }
         _ => Some(area),

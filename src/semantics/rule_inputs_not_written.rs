@@ -24,7 +24,12 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
 pub(super) fn writes<'a>(context: &Context<'a>, section: Section) -> impl Iterator<Item = (&'a Path, Span)> {
     let mut found = Vec::new();
     for (path, _) in uses::paths(context).into_iter().filter(|(_, writes)| *writes) {
-        let Some((_, _, symbol)) = context.project.variable(context.id, &path.root.text) else { continue };
+        let Some((declared, _, own)) = context.project.variable(context.id, &path.root.text) else { continue };
+        // An external variable is what the global one is.
+        let symbol = match declared {
+            Section::External(position) => context.project.globals.list().get(position).unwrap_or(own),
+            _ => own,
+        };
         let is_instance = matches!(symbol.shape, Some(Shape::Instance(_)));
         let is_input = section == Section::Input && symbol.area == Some(Area::Input);
         if (symbol.section == section || is_input) && !is_instance {

@@ -22,7 +22,7 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
             };
             match body.first() {
                 None => Some(unvalued(*close, "this parenthesis is empty".to_owned())),
-                Some(first) if begins_with_value(first) => None,
+                Some(first) if begins_with_value(first) || is_broken(first) => None,
                 Some(first) => {
                     if reported.replace(first).is_some_and(|outer| std::ptr::eq(outer, instruction)) {
                         return None;
@@ -42,6 +42,19 @@ fn begins_with_value(instruction: &Instruction) -> bool {
         Some(Operation::Function { arguments, .. }) => arguments.enclosed,
         Some(Operation::Parenthesis { .. }) => false,
         _ => true,
+    }
+}
+
+/// Whether what a parenthesis begins with, after however many more, could not be read.
+fn is_broken(mut first: &Instruction) -> bool {
+    loop {
+        match &first.operation {
+            Some(Operation::Parenthesis { first: None, body, .. }) => match body.first() {
+                Some(inner) => first = inner,
+                None => return false,
+            },
+            operation => return matches!(operation, Some(Operation::Broken)),
+        }
     }
 }
 

@@ -44,7 +44,7 @@ fn complaint(symbol: &Symbol, written: Option<bool>) -> Option<Diagnostic> {
                     .help("it keeps its initial value for ever"),
             )
         }
-        None if symbol.section == Section::Result => {
+        None | Some(false) if symbol.section == Section::Result => {
             let message = format!("the function `{name}` never gives its result a value");
             Some(
                 Diagnostic::new(Code::OutputNotWritten, symbol.span, message)
@@ -54,7 +54,8 @@ fn complaint(symbol: &Symbol, written: Option<bool>) -> Option<Diagnostic> {
         None if is_output || matches!(symbol.section, Section::Constant | Section::External(_)) => None,
         None => {
             let message = format!("`{name}` is never used");
-            Some(Diagnostic::new(Code::VariableNotUsed, symbol.span, message))
+            let help = "use it, or remove its declaration";
+            Some(Diagnostic::new(Code::VariableNotUsed, symbol.span, message).help(help))
         }
         Some(false) if symbol.section == Section::Local && !is_input && !is_instance && !symbol.is_given => {
             if !matches!(symbol.shape, Some(Shape::Scalar(_))) {

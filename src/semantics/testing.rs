@@ -20,3 +20,12 @@ pub fn lines(code: Code, text: &str) -> Vec<usize> {
     diagnostics.extend(check(&unit, true).1);
     diagnostics.iter().filter(|d| d.code == code).map(|d| source.line_of(d.span().start)).collect()
 }
+
+/// What is said about a text, in the order of the text: codes and lines.
+pub fn findings(text: &str) -> Vec<(Code, usize)> {
+    let source = Source::new("test", text);
+    let (unit, mut diagnostics) = parse(&source);
+    let clean = diagnostics.is_empty();
+    diagnostics.extend(check(&unit, clean).1);
+    diagnostics.iter().map(|d| (d.code, source.line_of(d.span().start))).collect()
+}

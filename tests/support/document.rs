@@ -12,10 +12,16 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use super::process::petril;
+use super::process::{Run, petril};
 
 /// The document as it would have to be: its own text with what the commands print now.
 pub fn replay(text: &str) -> String {
+    replay_again(text).0
+}
+
+/// The same, and what the last command does when it is run again with the files as they are at the end.
+pub fn replay_again(text: &str) -> (String, Option<Run>) {
+    let mut last = None;
     let mut out = String::new();
     let mut folder = TempDir::new().expect("there is room for files");
     let mut lines = text.lines();
@@ -28,8 +34,9 @@ pub fn replay(text: &str) -> String {
         let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
         match info.split_whitespace().collect::<Vec<_>>().as_slice() {
             ["console"] => {
-                let commands = block.iter().filter(|line| line.starts_with("$ "));
-                let answers: Vec<String> = commands.map(|line| answer(line, folder.path())).collect();
+                let commands: Vec<&str> = block.iter().copied().filter(|line| line.starts_with("$ ")).collect();
+                let answers: Vec<String> = commands.iter().map(|line| answer(line, folder.path())).collect();
+                last = commands.last().copied();
                 out += &answers.join("\n");
             }
             words => {
@@ -41,17 +48,21 @@ pub fn replay(text: &str) -> String {
         }
         out += "```\n";
     }
-    out
+    (out, last.map(|line| execute(line, folder.path())))
 }
 
 /// A command with its exit code and output.
 fn answer(line: &str, folder: &Path) -> String {
-    let words: Vec<String> = words(line);
-    assert_eq!(words[..2], ["$", "petril"], "{line}");
-    let run = petril(folder, &words[2..]);
+    let run = execute(line, folder);
     let code = if run.code == 0 { String::new() } else { format!("? {}\n", run.code) };
     // Messages come before results.
     format!("{line}\n{code}{}{}", run.stderr, run.stdout).trim_end().to_owned() + "\n"
+}
+
+fn execute(line: &str, folder: &Path) -> Run {
+    let words: Vec<String> = words(line);
+    assert_eq!(words[..2], ["$", "petril"], "{line}");
+    petril(folder, &words[2..])
 }
 
 /// The words of a command; quotes keep blanks.

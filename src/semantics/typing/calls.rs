@@ -6,7 +6,7 @@ use super::Typing;
 use super::places::Use;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::semantics::PouId;
-use crate::semantics::inference::Class;
+use crate::semantics::inference::{Class, NOWHERE};
 use crate::semantics::program::{Action, Call, Callee, Condition, Enable, Feed, FeedSource, Place, TypeId};
 use crate::semantics::shape::Shape;
 use crate::semantics::symbols::{Section, Symbol};
@@ -18,7 +18,7 @@ impl Typing<'_> {
     pub fn call(&mut self, condition: Condition, callee: &Path, arguments: &Arguments, span: Span) -> Option<Action> {
         let (id, place) = self.instance(callee)?;
         let mut call = self.empty(condition, Callee::Instance(id, place));
-        self.arguments(id, &arguments.list, 0, &mut call, span);
+        self.arguments(id, &arguments.list, 0, &mut call);
         self.check_in_outs(id, &call, span);
         Some(Action::Call(Box::new(call)))
     }
@@ -40,7 +40,8 @@ impl Typing<'_> {
                 PouKind::FunctionBlock => {
                     format!("declare one, like `VAR x : {}; END_VAR`, and call it with `CAL x`", name.text)
                 }
-                _ => format!("functions are called by their name alone: `{}`", name.text),
+                PouKind::Function => format!("functions are called by their name alone: `{}`", name.text),
+                PouKind::Program => "a program is executed by its task, and cannot be called".to_owned(),
             };
             self.diagnostics.push(Diagnostic::new(Code::NotCallable, name.span, message).help(help));
             return None;
@@ -69,8 +70,8 @@ impl Typing<'_> {
                 .push(Diagnostic::new(Code::ParameterUnknown, span, message).help(format!("its inputs are {inputs}")));
             return None;
         };
-        let scalar = symbol.shape.as_ref()?.scalar()?.clone();
-        let ty = self.types.of(&scalar, span);
+        let scalar = self.whole(symbol, word, span)?;
+        let ty = self.types.of(&scalar, NOWHERE);
         self.same(result, ty, span, |known| {
             format!("the input `{word}` of `{block}` is `{scalar}`, but the current result is `{}`", known.scalar)
         });
@@ -96,7 +97,13 @@ impl Typing<'_> {
             }
             Some((_, kind)) => {
                 let message = format!("`{}` is a `{kind}`, not a function", name.text);
-                self.diagnostics.push(Diagnostic::new(Code::NotCallable, name.span, message));
+                let help = match kind {
+                    PouKind::FunctionBlock => {
+                        format!("declare an instance, like `VAR x : {}; END_VAR`, and call it with `CAL x`", name.text)
+                    }
+                    _ => "a program is executed by its task, and cannot be called".to_owned(),
+                };
+                self.diagnostics.push(Diagnostic::new(Code::NotCallable, name.span, message).help(help));
                 (None, self.types.fresh())
             }
             None => self.standard(name, arguments, span, result),
@@ -127,8 +134,14 @@ impl Typing<'_> {
                 return None;
             };
             first = 1;
-            let scalar = input.shape.as_ref()?.scalar()?.clone();
-            let ty = self.types.of(&scalar, span);
+            if input.section == Section::InOut {
+                let message = format!("`{}` is an in-out variable of `{name}`, so it needs a variable", input.name);
+                let help = format!("the current result is none; write `{name}({} := x)`", input.name);
+                self.diagnostics.push(Diagnostic::new(Code::ParameterUnfit, span, message).help(help));
+                return None;
+            }
+            let scalar = self.whole(input, &input.name, span)?;
+            let ty = self.types.of(&scalar, NOWHERE);
             self.same(result, ty, span, |known| {
                 format!(
                     "the first input `{}` of `{name}` is `{scalar}`, but the current result is `{}`",
@@ -138,7 +151,9 @@ impl Typing<'_> {
             call.inputs.push((position, Feed { ty, source: FeedSource::Result, span }));
             if arguments.list.len() + 1 != inputs.len() {
                 let names: Vec<&str> = inputs.iter().map(|(_, symbol)| symbol.name.as_str()).collect();
-                let message = format!("`{name}` has {} inputs, here are {}", inputs.len(), arguments.list.len() + 1);
+                let (has, given) = (plural(inputs.len(), "input"), arguments.list.len() + 1);
+                let message =
+                    format!("`{name}` has {has}, but {given} {} given", if given == 1 { "is" } else { "are" });
                 self.diagnostics.push(Diagnostic::new(Code::ParameterCount, span, message).help(format!(
                     "its inputs are {}; the first is the current result, the others stand behind the name",
                     names.join(", ")
@@ -146,13 +161,13 @@ impl Typing<'_> {
                 return None;
             }
         }
-        self.arguments(id, &arguments.list, first, &mut call, span);
+        self.arguments(id, &arguments.list, first, &mut call);
         self.check_in_outs(id, &call, span);
         Some(Action::Call(Box::new(call)))
     }
 
     /// Arguments to the variables of a unit; positional ones begin with the input of position `first`.
-    fn arguments(&mut self, id: PouId, arguments: &[Argument], first: usize, call: &mut Call, span: Span) {
+    fn arguments(&mut self, id: PouId, arguments: &[Argument], first: usize, call: &mut Call) {
         let context = self.context;
         let symbols = context.project.symbols(id);
         let block = &context.project.pou(id).name.text;
@@ -164,7 +179,7 @@ impl Typing<'_> {
                 Argument::Positional(operand) => match inputs.get(next) {
                     Some((_, symbol)) => (symbol.name.clone(), operand.span()),
                     None => {
-                        let message = format!("`{block}` has only {} inputs", inputs.len());
+                        let message = format!("`{block}` has only {}", plural(inputs.len(), "input"));
                         self.diagnostics.push(Diagnostic::new(Code::ParameterCount, operand.span(), message));
                         return;
                     }
@@ -180,7 +195,6 @@ impl Typing<'_> {
             }
             self.argument(id, argument, &name, at, call);
         }
-        let _ = span;
     }
 
     fn argument(&mut self, id: PouId, argument: &Argument, name: &str, at: Span, call: &mut Call) -> Option<()> {
@@ -204,9 +218,15 @@ impl Typing<'_> {
         let unfit = |message: String, help: &str| Diagnostic::new(Code::ParameterUnfit, at, message).help(help);
         match (argument, symbol.section) {
             (Argument::Output { negated, target, .. }, Section::Output) => {
+                let shape = symbol.shape.as_ref()?;
+                let Some(scalar) = shape.scalar().cloned() else {
+                    let message = format!("the output `{name}` is {shape}, and cannot be taken as one value");
+                    let help = "load its parts after the call, or declare it in `VAR_IN_OUT`";
+                    self.diagnostics.push(unfit(message, help));
+                    return None;
+                };
                 let (ty, place) = self.writable(target, "=>")?;
-                let scalar = symbol.shape.as_ref()?.scalar()?.clone();
-                let own = self.types.of(&scalar, at);
+                let own = self.types.of(&scalar, NOWHERE);
                 self.same(own, ty, place.span, |_| {
                     format!("the output `{name}` of `{block}` is `{scalar}`, and this is of another type")
                 });
@@ -234,20 +254,22 @@ impl Typing<'_> {
                 self.input(&scalar, &feed, name, block);
                 call.inputs.push((position, feed));
             }
-            (
-                Argument::Input { value: ast::Feed::Operand(operand), .. } | Argument::Positional(operand),
-                Section::InOut,
-            ) => {
-                let Operand::Variable(path) = operand else {
+            (Argument::Input { .. } | Argument::Positional(_), Section::InOut) => {
+                let (Argument::Input { value: ast::Feed::Operand(Operand::Variable(path)), .. }
+                | Argument::Positional(Operand::Variable(path))) = argument
+                else {
                     let message = format!("`{name}` is an in-out variable of `{block}`, so it needs a variable");
-                    self.diagnostics.push(unfit(message, "a literal cannot be written"));
+                    self.diagnostics
+                        .push(unfit(message, &format!("`{block}` writes to it, so name a variable of your own")));
                     return None;
                 };
                 let place = self.place(path, Use::Bind)?;
                 let shape = symbol.shape.as_ref()?;
                 if !place.shape.same(shape) {
-                    let message =
-                        format!("the in-out variable `{name}` of `{block}` is {shape}, but this is {}", place.shape);
+                    let message = format!(
+                        "the in-out variable `{name}` of `{block}` is `{shape}`, but this is `{}`",
+                        place.shape
+                    );
                     self.diagnostics.push(Diagnostic::new(Code::TypesDiffer, path.span, message));
                     return None;
                 }
@@ -255,7 +277,8 @@ impl Typing<'_> {
             }
             (_, Section::Output) => {
                 let message = format!("`{name}` is an output of `{block}`");
-                self.diagnostics.push(unfit(message, "take it with `=>`"));
+                self.diagnostics
+                    .push(unfit(message, &format!("take it with `{name} => x`, or load it after the call")));
             }
             _ => {
                 let message = format!("`{name}` is no parameter of `{block}`");
@@ -277,7 +300,7 @@ impl Typing<'_> {
     }
 
     fn input(&mut self, scalar: &crate::semantics::shape::Scalar, feed: &Feed, name: &str, block: &str) {
-        let ty = self.types.of(scalar, feed.span);
+        let ty = self.types.of(scalar, NOWHERE);
         self.same(ty, feed.ty, feed.span, |_| {
             format!("the input `{name}` of `{block}` is `{scalar}`, and this is of another type")
         });
@@ -303,13 +326,13 @@ impl Typing<'_> {
     /// `EN := …` and `ENO => …`, which every unit has.
     pub fn enable(&mut self, argument: &Argument, name: &str, enable: &mut Enable) -> bool {
         match argument {
-            Argument::Input { value, .. } if name.eq_ignore_ascii_case("EN") => {
+            Argument::Input { name: Name { span: argument_span, .. }, value } if name.eq_ignore_ascii_case("EN") => {
                 let feed = match value {
                     ast::Feed::Operand(operand) => self.feed(operand),
-                    ast::Feed::List(list) => Some(self.feed_list(list, Span::default())),
+                    ast::Feed::List(list) => Some(self.feed_list(list, *argument_span)),
                 };
                 if let Some(feed) = feed {
-                    let boolean = self.types.boolean(feed.span);
+                    let boolean = self.types.boolean(NOWHERE);
                     self.same(boolean, feed.ty, feed.span, |_| "`EN` is a `BOOL`".to_owned());
                     enable.en = Some(feed);
                 }
@@ -317,7 +340,7 @@ impl Typing<'_> {
             }
             Argument::Output { negated, target, .. } if name.eq_ignore_ascii_case("ENO") => {
                 if let Some((ty, place)) = self.writable(target, "=>") {
-                    let boolean = self.types.boolean(place.span);
+                    let boolean = self.types.boolean(NOWHERE);
                     self.same(boolean, ty, place.span, |_| "`ENO` is a `BOOL`".to_owned());
                     enable.eno = Some((*negated, place));
                 }
@@ -333,7 +356,9 @@ impl Typing<'_> {
         for (position, symbol) in symbols.iter().enumerate().filter(|(_, symbol)| symbol.section == Section::InOut) {
             if !call.in_outs.iter().any(|(given, _)| *given == position) {
                 let block = &self.context.project.pou(id).name.text;
-                let known = self.diagnostics.iter().any(|d| d.span().start >= span.start && d.span().end <= span.end);
+                // What is wrong with this very call has been reported just now.
+                let mut latest = self.diagnostics.iter().rev().take(100);
+                let known = latest.any(|d| d.span().start >= span.start && d.span().end <= span.end);
                 if !known {
                     let message = format!("the in-out variable `{}` of `{block}` is not given", symbol.name);
                     let help = format!("give it a variable, like `{} := x`", symbol.name);
@@ -342,6 +367,11 @@ impl Typing<'_> {
             }
         }
     }
+}
+
+/// `1 input`, `2 inputs`
+pub fn plural(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 fn inputs_of(symbols: &[Symbol]) -> impl Iterator<Item = &Symbol> {

@@ -4,6 +4,10 @@ mod calls;
 mod operators;
 mod places;
 mod standard;
+#[cfg(test)]
+mod tests;
+
+pub use standard::is_standard;
 
 use std::collections::BTreeMap;
 
@@ -11,15 +15,13 @@ use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
 use super::effect::{Leaves, effect};
-use super::inference::{Inference, Known};
+use super::inference::{Inference, Known, NOWHERE};
 use super::program::{Action, Condition, Feed, FeedSource, Operand, Statement, TypeId};
 use super::types::Type;
 use super::{Context, control_flow};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{self, Instruction, Name, Operation};
-
-pub use standard::is_standard;
+use crate::syntax::ast::{self, Instruction, Literal, Name, Operation};
 
 /// A typed instruction list.
 pub struct Typed {
@@ -37,6 +39,7 @@ pub fn unit(context: &Context<'_>) -> Typed {
         diagnostics: Vec::new(),
         unknown: BTreeMap::new(),
         positions: Vec::new(),
+        unknown_words: 0,
     };
     let body = typing.list();
     let (types, literals, more) = typing.types.settle();
@@ -54,6 +57,8 @@ struct Typing<'a> {
     unknown: BTreeMap<String, (Name, usize)>,
     /// Labels that stand alone vanish: instruction i of the text is statement `positions[i]`.
     positions: Vec<usize>,
+    /// How many instructions begin with a word nobody knows.
+    unknown_words: usize,
 }
 
 impl Typing<'_> {
@@ -140,7 +145,7 @@ impl Typing<'_> {
     /// A condition is `BOOL`.
     fn condition(&mut self, condition: Condition, result: TypeId, span: Span) {
         if condition != Condition::Always {
-            let boolean = self.types.boolean(span);
+            let boolean = self.types.boolean(NOWHERE);
             self.same(result, boolean, span, |known| {
                 format!("a condition needs a `BOOL`, but the current result is `{}`", known.scalar)
             });
@@ -166,11 +171,9 @@ impl Typing<'_> {
         if let Err(known) = self.types.unify(result, other) {
             let (left, right) = *known;
             let mut diagnostic = Diagnostic::new(Code::TypesDiffer, span, message(&left));
-            if right.span != span {
-                diagnostic = diagnostic.also(right.span, format!("of type `{}`", right.scalar));
-            }
-            if left.span != span {
-                diagnostic = diagnostic.also(left.span, format!("of type `{}`", left.scalar));
+            for known in [&right, &left].into_iter().filter(|known| !known.is_nowhere()) {
+                let text = format!("of type `{}`", known.scalar);
+                diagnostic = if known.span == span { diagnostic.here(text) } else { diagnostic.also(known.span, text) };
             }
             let help = conversion(&left, &right);
             self.diagnostics.push(match help {
@@ -185,6 +188,18 @@ impl Typing<'_> {
         match operand {
             ast::Operand::Constant(constant) => {
                 let project = self.context.project;
+                if let Some(Literal::Enumerated(prefix, _)) = &constant.literal
+                    && project.enumeration(prefix).is_none()
+                {
+                    let message = format!("there is no enumeration `{prefix}`");
+                    let names = project.enumeration_names();
+                    self.diagnostics.push(
+                        Diagnostic::new(Code::TypeNotDeclared, constant.span, message)
+                            .suggest(prefix, names)
+                            .help(format!("declare it, like `TYPE {prefix} : (first, second); END_TYPE`")),
+                    );
+                    return None;
+                }
                 let (ty, position) = self.types.literal(constant, |name| project.enumeration(name));
                 Some((ty, Operand::Literal(position)))
             }
@@ -203,9 +218,10 @@ impl Typing<'_> {
 /// How to get from one type to the other, if there is a function for that.
 fn conversion(left: &Known, right: &Known) -> Option<String> {
     let plain = left.scalar.enumeration.is_none() && right.scalar.enumeration.is_none();
-    plain.then(|| {
-        let (from, to) = (right.scalar.ty, left.scalar.ty);
-        format!("convert one of them, like with `{from}_TO_{to}`")
+    let (from, to) = (right.scalar.ty, left.scalar.ty);
+    plain.then(|| match from.is_bool() != to.is_bool() {
+        true => "a comparison, like `NE`, makes a `BOOL` of other values".to_owned(),
+        false => format!("convert one of them, like with `{from}_TO_{to}`"),
     })
 }
 
@@ -234,7 +250,8 @@ fn undeclared(unknown: BTreeMap<String, (Name, usize)>, context: &Context<'_>) -
     let found = firsts.into_iter().enumerate().map(|(i, (name, uses))| {
         let message = format!("`{}` is not declared", name.text);
         let diagnostic = Diagnostic::new(Code::NameNotDeclared, name.span, message);
-        let diagnostic = diagnostic.suggest_at(i, &name.text, context.symbols.names());
+        let names = context.symbols.names().chain(context.project.globals.names());
+        let diagnostic = diagnostic.suggest_at(i, &name.text, names.chain(context.project.enumerator_names()));
         if uses > 1 { diagnostic.here(format!("the first of {uses} uses")) } else { diagnostic }
     });
     found.collect()

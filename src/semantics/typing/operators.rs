@@ -4,7 +4,7 @@ use super::Typing;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::semantics::effect::block;
 use crate::semantics::function::Function;
-use crate::semantics::inference::Class;
+use crate::semantics::inference::{Class, NOWHERE};
 use crate::semantics::program::{Action, Statement, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::{Arguments, Instruction, Name, Operand, Operator, Verb};
@@ -74,7 +74,7 @@ impl Typing<'_> {
             }
             Verb::S | Verb::R => {
                 let Some((ty, place)) = self.writable(operand, &word) else { return (None, result) };
-                let boolean = self.types.boolean(span);
+                let boolean = self.types.boolean(NOWHERE);
                 self.same(ty, boolean, place.span, |known| {
                     format!("`{word}` needs a `BOOL`, but this is `{}`", known.scalar)
                 });

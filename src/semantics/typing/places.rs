@@ -25,8 +25,8 @@ impl Typing<'_> {
         let context = self.context;
         let is_variable = context.project.variable(context.id, &path.root.text).is_some();
         if let (false, Some(name)) = (is_variable, path.plain()) {
-            let mut enumerators = context.project.enumerators(&name.text);
-            if let (Some((enumeration, _)), true) = (enumerators.pop(), enumerators.is_empty()) {
+            let enumerators = context.project.enumerators(&name.text);
+            if let [(enumeration, _)] = enumerators.as_slice() {
                 let scalar = enumerated(enumeration.clone());
                 let text = format!("{}#{}", enumeration.name, name.text);
                 let literal = Literal::Enumerated(enumeration.name.clone(), name.text.clone());
@@ -145,7 +145,9 @@ impl Typing<'_> {
     fn member(&mut self, shape: &Shape, name: &Name, whole: &str, used: Use) -> Option<(usize, Shape)> {
         let mut unknown = |what: String, names: Vec<&str>| {
             let message = format!("{what} has no part `{}`", name.text);
-            self.diagnostics.push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
+            let list = names.iter().take(12).copied().collect::<Vec<_>>().join(", ");
+            let diagnostic = Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names);
+            self.diagnostics.push(if list.is_empty() { diagnostic } else { diagnostic.help(format!("it has {list}")) });
             None
         };
         match shape {
@@ -159,7 +161,8 @@ impl Typing<'_> {
             Shape::Instance(id) => {
                 let symbols = self.context.project.symbols(*id);
                 let Some((position, symbol)) = symbols.find(&name.text) else {
-                    return unknown(format!("`{whole}`"), symbols.names().collect());
+                    let seen = symbols.list().iter().filter(|s| matches!(s.section, Section::Input | Section::Output));
+                    return unknown(format!("`{whole}`"), seen.map(|symbol| symbol.name.as_str()).collect());
                 };
                 let allowed = match (symbol.section, used) {
                     (Section::Input, _) | (Section::Output, Use::Read) => true,
@@ -200,13 +203,13 @@ impl Typing<'_> {
             return None;
         };
         if ranges.len() != indices.len() {
-            let message = format!("`{whole}` needs {} indices, here are {}", ranges.len(), indices.len());
-            let message = if ranges.len() == 1 {
-                format!("`{whole}` needs one index, here are {}", indices.len())
-            } else {
-                message
+            let dimensions = match ranges.len() {
+                1 => "1 dimension".to_owned(),
+                n => format!("{n} dimensions"),
             };
-            self.diagnostics.push(Diagnostic::new(Code::IndexCount, span, message));
+            let message = format!("`{whole}` has {dimensions}, but {} in brackets", count(indices.len()));
+            let help = format!("it is {shape}");
+            self.diagnostics.push(Diagnostic::new(Code::IndexCount, span, message).help(help));
             return None;
         }
         let indices =
@@ -238,7 +241,7 @@ impl Typing<'_> {
                 let place = self.place(path, Use::Read)?;
                 self.elementary(&place, path)?;
                 let scalar = place.scalar();
-                let is_number = matches!(scalar.ty.kind, Kind::Signed | Kind::Unsigned);
+                let is_number = matches!(scalar.ty.kind, Kind::Signed | Kind::Unsigned) && scalar.enumeration.is_none();
                 if !is_number {
                     let message = format!("`{path}` is of type `{scalar}` and can be no index");
                     self.diagnostics
@@ -267,4 +270,8 @@ impl Typing<'_> {
         self.diagnostics.push(Diagnostic::new(Code::IndexUnfit, path.span, message).help(help));
         None
     }
+}
+
+fn count(indices: usize) -> String {
+    if indices == 1 { "1 index stands".to_owned() } else { format!("{indices} indices stand") }
 }

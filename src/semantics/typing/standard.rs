@@ -1,10 +1,11 @@
 //! Calls of standard functions (2.5.1.5), which take values of many types.
 
 use super::Typing;
+use super::calls::plural;
 use super::operators;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::semantics::function::Function;
-use crate::semantics::inference::Class;
+use crate::semantics::inference::{Class, NOWHERE};
 use crate::semantics::program::{Action, Enable, Feed, FeedSource, Standard, StandardFunction, TypeId};
 use crate::semantics::shape::Scalar;
 use crate::semantics::types::Type;
@@ -95,9 +96,9 @@ impl Typing<'_> {
         let Some(feeds) = self.standard_arguments(name, &signature, arguments, span, result, &mut enable) else {
             return (None, value);
         };
-        let own = self.types.of(&Scalar::new(from), span);
+        let own = self.types.of(&Scalar::new(from), NOWHERE);
         self.same(own, feeds[0].ty, feeds[0].span, |_| {
-            format!("`{}` takes a `{from}`, and this is of another type", name.text)
+            format!("`{}` takes `{from}`, and this is of another type", name.text)
         });
         let standard = Standard { function: StandardFunction::Convert, ty: value, arguments: feeds, enable };
         (Some(Action::Standard(Box::new(standard))), value)
@@ -118,9 +119,15 @@ impl Typing<'_> {
             feeds.push(Some(Feed { ty: result, source: FeedSource::Result, span }));
         }
         let errors = self.diagnostics.len();
+        // Names that are not declared are reported later.
+        let mut broken = false;
         for argument in &arguments.list {
             match argument {
-                Argument::Positional(operand) => feeds.push(self.feed(operand)),
+                Argument::Positional(operand) => {
+                    let feed = self.feed(operand);
+                    broken |= feed.is_none();
+                    feeds.push(feed);
+                }
                 Argument::Input { name: input, value } => {
                     if self.enable(argument, &input.text, enable) {
                         continue;
@@ -138,6 +145,7 @@ impl Typing<'_> {
                         ast::Feed::Operand(operand) => self.feed(operand),
                         ast::Feed::List(list) => Some(self.feed_list(list, input.span)),
                     };
+                    broken |= feed.is_none();
                     if feeds.len() <= position {
                         feeds.resize_with(position + 1, || None);
                     }
@@ -150,7 +158,7 @@ impl Typing<'_> {
                 }
             }
         }
-        if self.diagnostics.len() > errors {
+        if broken || self.diagnostics.len() > errors {
             return None;
         }
         let needed = signature.inputs.len();
@@ -158,10 +166,12 @@ impl Typing<'_> {
         if !fits || feeds.iter().any(Option::is_none) {
             let given = feeds.iter().flatten().count();
             let least = if signature.many { "at least " } else { "" };
-            let message = format!("`{}` takes {least}{needed} values, here are {given}", name.text);
+            let (takes, verb) = (plural(needed, "value"), if given == 1 { "is" } else { "are" });
+            let message = format!("`{}` takes {least}{takes}, but {given} {verb} given", name.text);
+            let list = signature.inputs.join(", ") + if signature.many { ", …" } else { "" };
             let help = match arguments.enclosed {
-                true => "give each of them, like `IN := x`",
-                false => "the first is the current result, the others stand behind the name",
+                true => format!("they are {list}"),
+                false => format!("they are {list}; the first is the current result, the others stand behind the name"),
             };
             self.diagnostics.push(Diagnostic::new(Code::ParameterCount, span, message).help(help));
             return None;
@@ -206,7 +216,7 @@ impl Typing<'_> {
                 ty
             }
             StandardFunction::Sel => {
-                let boolean = self.types.boolean(feeds[0].span);
+                let boolean = self.types.boolean(NOWHERE);
                 self.same(boolean, feeds[0].ty, feeds[0].span, |_| format!("`{word}` chooses by a `BOOL`"));
                 alike(self, &feeds[1..])
             }
@@ -248,15 +258,10 @@ impl Typing<'_> {
         let own = context.project.unit.pous.iter().map(|pou| pou.name.text.as_str());
         let message = format!("`{}` is neither an operator nor a function that is known", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownOperator, name.span, message);
-        let position = self.diagnostics.len();
+        let position = self.unknown_words;
+        self.unknown_words += 1;
         self.diagnostics.push(diagnostic.suggest_at(position, &name.text, WORDS.iter().copied().chain(own)));
     }
-}
-
-/// Whether this is the name of a standard function that is modelled.
-pub fn is_standard(name: &str) -> bool {
-    let word = key(name);
-    conversion(&word).is_some() || signature(&word).is_some()
 }
 
 /// The words an instruction can begin with.
@@ -265,6 +270,11 @@ const WORDS: [&str; 41] = [
     "DIV", "MOD", "GT", "GE", "EQ", "NE", "LE", "LT", "JMP", "JMPC", "JMPCN", "RET", "RETC", "RETCN", "CAL", "CALC",
     "CALCN", "ABS", "MIN", "MAX", "LIMIT", "SEL", "MUX", "MOVE",
 ];
+
+/// Whether a word in capital letters is the name of a standard function.
+pub fn is_standard(word: &str) -> bool {
+    conversion(word).is_some() || signature(word).is_some()
+}
 
 /// The input of a formal call, by its position.
 fn position(name: &str, signature: &Signature) -> Option<usize> {

@@ -43,6 +43,8 @@ pub fn var_block(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Var
                 word => block.retain = Some(word),
             },
             Rule::declaration => block.declarations.push(declaration(piece)),
+            // Blocks of this kind are refused as a whole.
+            Rule::bad_declaration if block.kind == VarKind::Access => {}
             Rule::bad_declaration => {
                 let names = bad_declaration(&piece, Rule::lone_declaration, diagnostics);
                 block.declarations.push(Declaration { names, location: None, spec: None, edge: None, initial: None });

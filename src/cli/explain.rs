@@ -1,0 +1,47 @@
+//! `petril explain`: what a code means, with a program that is refused and one that is not.
+//!
+//! The pages are `docs/codes/*.md`; `tests/diagnostics.rs` holds them to what is said.
+
+use petril::diagnostic::{Code, nearest};
+
+use super::args::Explain;
+use super::console::Console;
+use super::{Failure, Outcome};
+
+macro_rules! pages {
+    ($($id:literal)+) => {
+        &[$(($id, include_str!(concat!("../../docs/codes/", $id, ".md")))),+]
+    };
+}
+
+/// The page of each code.
+const PAGES: &[(&str, &str)] = pages! {
+    "E0101" "E0102" "E0103" "E0104" "E0105" "E0106" "E0107" "E0108" "E0109" "E0110" "E0111"
+    "E0201" "E0202" "E0203" "E0204" "E0205" "W0206" "W0207" "E0208" "E0209" "E0210" "E0211" "E0212" "E0213"
+    "E0214" "E0215" "E0216" "E0217" "W0218" "E0219" "E0220" "W0221" "W0222" "W0223" "W0224" "E0225" "E0226"
+    "E0302" "E0303" "E0304" "E0305" "E0306" "E0307" "E0308" "E0309" "E0310" "W0311" "W0312" "E0313" "E0314"
+    "E0315" "E0316" "E0317" "E0318" "E0319" "E0320" "E0321" "E0322" "E0323" "E0324" "E0325" "E0326" "W0327"
+    "W0328" "E0329" "E0330"
+    "E0401" "E0402" "E0403" "E0404" "E0405" "E0406" "E0407" "E0408" "E0409" "E0410"
+    "E0501" "E0502" "E0503" "E0504" "E0505"
+    "E0601"
+};
+
+pub fn run(arguments: &Explain, console: &Console) -> Outcome {
+    let Some(word) = &arguments.code else {
+        let lines = Code::ALL.iter().map(|code| format!("{code}  {}\n", code.summary()));
+        return console.print(&lines.collect::<String>());
+    };
+    match PAGES.iter().find(|(id, _)| id.eq_ignore_ascii_case(word)) {
+        Some((_, page)) => console.print(page),
+        None => {
+            let hint = match nearest(word, PAGES.iter().map(|&(id, _)| id)) {
+                Some(id) => format!("; did you mean {id}?"),
+                None => String::new(),
+            };
+            Err(Failure::Message(format!(
+                "there is no code `{word}`{hint}\n  `petril explain` without a code lists them all"
+            )))
+        }
+    }
+}
