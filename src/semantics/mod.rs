@@ -186,7 +186,7 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
         return Diagnostic::new(Code::OtherLanguage, span, message)
             .help("what it does is not in this file: put its instruction list there");
     }
-    let how = if language.starts_with("a ") { "as" } else { "in" };
+    let how = if language.ends_with("Chart") || language.ends_with("Diagram") { "as" } else { "in" };
     let message = format!("`{}` is written {how} {language}, not in Instruction List", pou.name.text);
     let help = match language {
         "Structured Text" => "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`",
