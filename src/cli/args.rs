@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 
-use super::meaning::{Meaning, Timing};
+use super::meaning::{Meaning, Reading};
 
 /// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
 ///
@@ -73,9 +73,6 @@ pub struct Check {
     /// The program: Instruction List, or a PLCopen project in XML.
     #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
-    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
-    #[arg(long, value_name = "NAME")]
-    pub pou: Option<String>,
     /// A plant: a safe net (.net or .pnml) whose places named like `S1=1,O1=0` drive inputs. Inputs that no plant drives
     /// are free. May be given several times.
     #[arg(long, value_name = "NET")]
@@ -146,18 +143,15 @@ pub struct Translate {
     /// The program: Instruction List, or a PLCopen project in XML.
     #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
-    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
-    #[arg(long, value_name = "NAME")]
-    pub pou: Option<String>,
     /// A plant, as for `petril check`.
     #[arg(long, value_name = "NET")]
     pub plant: Vec<PathBuf>,
     /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot, .svg.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// How often scans come.
+    /// Which unit, and how it is read.
     #[command(flatten)]
-    pub timing: Timing,
+    pub reading: Reading,
 }
 
 /// `petril flat`
@@ -166,12 +160,9 @@ pub struct Flat {
     /// The program: Instruction List, or a PLCopen project in XML.
     #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
-    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
-    #[arg(long, value_name = "NAME")]
-    pub pou: Option<String>,
-    /// How often scans come.
+    /// Which unit, and how it is read.
     #[command(flatten)]
-    pub timing: Timing,
+    pub reading: Reading,
 }
 
 /// `petril simulate`
@@ -180,9 +171,6 @@ pub struct Simulate {
     /// The program: Instruction List, or a PLCopen project in XML.
     #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
-    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
-    #[arg(long, value_name = "NAME")]
-    pub pou: Option<String>,
     /// Values of the inputs (CSV): names in the first row, then one row a scan. Inputs without a column keep their initial
     /// value.
     #[arg(long, value_name = "CSV")]
@@ -228,9 +216,9 @@ pub struct Draw {
     /// Where to write the SVG picture.
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: PathBuf,
-    /// How often scans come.
+    /// Which unit, and how it is read.
     #[command(flatten)]
-    pub timing: Timing,
+    pub reading: Reading,
 }
 
 /// The verbs on nets.

@@ -23,9 +23,8 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let timing = arguments.meaning.timing;
     let (Program { flat: program, source }, plant) =
-        input::parts(&arguments.program, arguments.pou.as_deref(), &arguments.plant, timing, console)?;
+        input::parts(&arguments.program, &arguments.plant, &arguments.meaning.reading, console)?;
     let mut asked = Asked::read(arguments, console)?;
     let domains = asked.domains(&program, &plant);
     let mut system = System::with_domains(program, plant, domains);

@@ -19,7 +19,7 @@ const OPERATORS: [&str; 19] = [
 pub fn run(arguments: &Draw, console: &Console) -> Outcome {
     let (program, line) = match (&arguments.program, &arguments.instruction) {
         (Some(path), _) => {
-            let program = input::program(path, None, arguments.timing, console)?.flat;
+            let program = input::program(path, &arguments.reading, console)?.flat;
             let lines = program.end();
             let line = arguments.line.unwrap_or(1);
             let index = line.checked_sub(1).filter(|&index| index < lines).ok_or_else(|| {

@@ -25,6 +25,7 @@ const PAGES: &[(&str, &str)] = pages! {
     "E0401" "E0402" "E0403" "E0404" "E0405" "E0406" "E0407" "E0408" "E0409" "E0410"
     "E0501" "E0502" "E0503" "E0504" "E0505" "E0506"
     "E0601"
+    "E0701" "E0702" "E0703" "E0704" "E0705" "E0706" "E0707" "E0708" "E0709"
 };
 
 pub fn run(arguments: &Explain, console: &Console) -> Outcome {

@@ -5,6 +5,6 @@ use super::console::Console;
 use super::{Outcome, input};
 
 pub fn run(arguments: &Flat, console: &Console) -> Outcome {
-    let program = input::program(&arguments.program, arguments.pou.as_deref(), arguments.timing, console)?;
+    let program = input::program(&arguments.program, &arguments.reading, console)?;
     console.print(&program.flat.listing(&program.source))
 }

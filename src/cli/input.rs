@@ -15,7 +15,7 @@ use petril::syntax;
 use petril::translate::{Plant, System};
 
 use super::console::Console;
-use super::meaning::Timing;
+use super::meaning::Reading;
 use super::{Failure, reason};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
@@ -62,16 +62,20 @@ pub struct Program {
     pub source: Source,
 }
 
-/// Reads a program, or the unit of this name. Its diagnostics are printed, warnings too.
-pub fn program(path: &Path, pou: Option<&str>, timing: Timing, console: &Console) -> Result<Program, Failure> {
+/// Reads a program, or the unit that is asked for. Its diagnostics are printed, warnings too.
+pub fn program(path: &Path, reading: &Reading, console: &Console) -> Result<Program, Failure> {
     let source = source(path, MAX_TEXT, console)?;
     let (unit, mut diagnostics) = syntax::parse(&source);
-    let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), pou);
-    diagnostics.extend(more);
+    if reading.strict {
+        diagnostics.extend(semantics::strict(&source, &unit));
+    }
+    let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), reading.pou.as_deref());
+    // The letter of the standard has said so already.
+    diagnostics.extend(more.into_iter().filter(|d| !(reading.strict && d.code == Code::CheckedByItself)));
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
-    let program = program.ok_or(Failure::Reported)?;
-    Ok(Program { flat: flatten_with(&program, timing.scan_time), source })
+    let program = program.filter(|_| !any_error(&diagnostics)).ok_or(Failure::Reported)?;
+    Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
 }
 
 /// Reads a net, by the ending of its name.
@@ -98,24 +102,22 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
 /// A program in its plants, free inputs having any value.
 pub fn system<P: AsRef<Path>>(
     path: &Path,
-    pou: Option<&str>,
     plants: &[P],
-    timing: Timing,
+    reading: &Reading,
     console: &Console,
 ) -> Result<(System, Source), Failure> {
-    let (program, plant) = parts(path, pou, plants, timing, console)?;
+    let (program, plant) = parts(path, plants, reading, console)?;
     Ok((System::new(program.flat, plant), program.source))
 }
 
 /// A program and its plants.
 pub fn parts<P: AsRef<Path>>(
     path: &Path,
-    pou: Option<&str>,
     plants: &[P],
-    timing: Timing,
+    reading: &Reading,
     console: &Console,
 ) -> Result<(Program, Plant), Failure> {
-    let program = program(path, pou, timing, console);
+    let program = program(path, reading, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
     let program = program?;

@@ -13,17 +13,24 @@ pub struct Meaning {
     /// What a division by zero is: an error, or 0.
     #[arg(long, value_name = "HOW", value_enum, default_value_t = DivisionByZero::Error)]
     pub div0: DivisionByZero,
-    /// How often scans come.
+    /// Which unit, and how it is read.
     #[command(flatten)]
-    pub timing: Timing,
+    pub reading: Reading,
 }
 
-/// How often scans come.
-#[derive(Clone, Copy, Debug, clap::Args)]
-pub struct Timing {
+/// Which unit of a file is taken, and how it is read.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Reading {
+    /// The PROGRAM, FUNCTION_BLOCK or FUNCTION of the file to take, if not its one PROGRAM.
+    #[arg(long, value_name = "NAME")]
+    pub pou: Option<String>,
     /// The time from one scan to the next, as timers measure it; if not given, the interval of the program's task, or 20ms.
     #[arg(long, value_name = "TIME", value_parser = milliseconds)]
     pub scan_time: Option<u64>,
+    /// Refuses what the letter of IEC 61131-3, edition 2, does not allow, like `//` comments. Without it, what real programs
+    /// have is read.
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// What a number is that does not fit its type.

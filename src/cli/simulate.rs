@@ -20,8 +20,7 @@ const DEFAULT_SCANS: usize = 10;
 const MAX_INPUTS: u64 = 1 << 30;
 
 pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
-    let Program { flat: program, source } =
-        input::program(&arguments.program, arguments.pou.as_deref(), arguments.meaning.timing, console)?;
+    let Program { flat: program, source } = input::program(&arguments.program, &arguments.meaning.reading, console)?;
     let rows = match &arguments.inputs {
         None => Vec::new(),
         Some(path) => {

@@ -18,8 +18,7 @@ pub fn run(arguments: &Translate, console: &Console) -> Outcome {
         );
         return Err(Failure::Message(message));
     }
-    let (system, source) =
-        input::system(&arguments.program, arguments.pou.as_deref(), &arguments.plant, arguments.timing, console)?;
+    let (system, source) = input::system(&arguments.program, &arguments.plant, &arguments.reading, console)?;
     let text = match extension {
         "pnml" => pnml::write(&system.net, Some(&Positions::of(&system)), Some(&Notes::of(&system, &source))),
         "net" => tina::write(&system.net),

@@ -14,7 +14,8 @@ pub enum Severity {
 macro_rules! codes {
     ($($(#[doc = $summary:literal])+ $name:ident = $id:literal,)+) => {
         /// A known problem. The hundreds of its number say where it is found: 01 syntax, 02 declarations and names, 03
-        /// instructions, 04 nets and plants, 05 requirements, 06 input tables.
+        /// instructions, 04 nets and plants, 05 requirements, 06 input tables, 07 the letter of the standard,
+        /// which is asked for with `--strict`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code { $($(#[doc = $summary])+ $name,)+ }
 
@@ -211,6 +212,25 @@ codes! {
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",
+
+    /// By the letter of edition 2, a comment does not run to the end of its line.
+    StrictLineComment = "E0701",
+    /// By the letter of edition 2, comments do not nest.
+    StrictNestedComment = "E0702",
+    /// By the letter of edition 2, an instruction does not end with `;`.
+    StrictSemicolon = "E0703",
+    /// By the letter of edition 2, each parameter of a formal call stands on a line of its own.
+    StrictFormalCall = "E0704",
+    /// By the letter of edition 2, an operator is no name of a variable.
+    StrictOperatorName = "E0705",
+    /// By the letter of edition 2, a closing parenthesis stands on a line of its own.
+    StrictClosing = "E0706",
+    /// By the letter of edition 2, a global variable is declared where it is used.
+    StrictGlobal = "E0707",
+    /// By the letter of edition 2, an address without a size is that of one bit.
+    StrictAddressSize = "E0708",
+    /// By the letter of edition 2, only a program is executed.
+    StrictNoProgram = "E0709",
 }
 
 impl Code {

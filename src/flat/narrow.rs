@@ -14,6 +14,8 @@ pub struct Timer {
     pub preset: VarId,
     /// What the clock advances by in one scan, in milliseconds.
     pub step: u64,
+    /// The line that compares the clock with the preset time before that.
+    pub line: usize,
 }
 
 /// Narrows the variables that are only given constants and copies: `preset := T#200ms` needs 8 bits, not 32.
@@ -66,6 +68,17 @@ pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
                 greatest[to] = value;
                 work.push(to);
             }
+        }
+    }
+    for timer in timers {
+        // Beyond the greatest preset time the clock need not count. As a pattern above the least signed one, it may be negative.
+        let preset = greatest[timer.preset.0];
+        if preset < 1 << 31
+            && let Instruction::Combine { operand, .. } = &mut program.code[timer.line].instruction
+        {
+            *operand = Operand::Constant(preset);
+        } else {
+            program.presets_vary = true;
         }
     }
     for (variable, greatest) in program.variables.iter_mut().zip(greatest) {

@@ -240,3 +240,44 @@ fn a_task_says_how_long_a_scan_is() {
                 PROGRAM one WITH fast : p;\nEND_RESOURCE END_CONFIGURATION";
     assert_eq!(flat(text).scan_time, Some(5));
 }
+
+#[test]
+fn a_function_called_inside_a_parenthesis_leaves_its_callers_value_alone() {
+    let text = "FUNCTION twice : INT\nVAR_INPUT a : INT; END_VAR\nLD a\nADD( a\n)\nST twice\nEND_FUNCTION\n\
+                PROGRAM p VAR_INPUT x : INT; END_VAR VAR y, z : INT; END_VAR\n\
+                LD 100\nADD( x\ntwice\n)\nST y\nLD 7\nADD( 1\nMUL( x\ntwice\n)\n)\nST z\nEND_PROGRAM";
+    let program = flat(text);
+    let mut run = Run::new(&program);
+    run.scan(&[("x", 3)]);
+    assert_eq!((run.get("y"), run.get("z")), (106, 13));
+}
+
+#[test]
+fn an_in_out_variable_stands_for_one_element_until_its_call_ends() {
+    let text = "FUNCTION_BLOCK f\nVAR_IN_OUT e : INT; END_VAR VAR_INPUT j : INT; END_VAR VAR b : ARRAY [0..3] OF INT; END_VAR\n\
+                LD e\nADD 1\nST e\nLD 100\nST b[j]\nLD e\nADD 1\nST e\nEND_FUNCTION_BLOCK\n\
+                PROGRAM p VAR_INPUT i, j : INT; g : BOOL; END_VAR\n\
+                VAR a : ARRAY [0..3] OF INT := [10, 20, 30, 40]; x : f; y : INT; END_VAR\n\
+                CAL x(e := a[i], j := j)\nLD g\nSEL a[i], a[j]\nST y\nEND_PROGRAM";
+    let program = flat(text);
+    let mut run = Run::new(&program);
+    run.scan(&[("i", 1), ("j", 3), ("g", 0)]);
+    let a: Vec<i128> = (0..4).map(|i| run.get(&format!("a[{i}]"))).collect();
+    assert_eq!(a, [10, 22, 30, 40]);
+    assert_eq!((run.get("y"), run.get("x.b[3]")), (22, 100));
+}
+
+#[test]
+fn a_timer_goes_on_while_its_preset_time_is_lowered() {
+    let text = "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR t : TON; END_VAR\n\
+                CAL t(IN := i, PT := T#60ms)\nLD T#0s\nST t.PT\nEND_PROGRAM";
+    let program = flatten_with(&checked(text), Some(20));
+    let mut run = Run::new(&program);
+    let on: Vec<i128> = (0..5)
+        .map(|_| {
+            run.scan(&[("i", 1)]);
+            run.get("t.Q")
+        })
+        .collect();
+    assert_eq!(on, [0, 0, 0, 1, 1], "60 ms after the first scan");
+}

@@ -16,6 +16,7 @@ mod needed;
 mod program;
 mod project;
 mod shape;
+mod strict;
 mod symbols;
 mod types;
 mod typing;
@@ -47,6 +48,7 @@ pub use program::{
     Root, Standard, StandardFunction, Statement, Step, TypeId, VarId, Variable,
 };
 pub use shape::{Enumeration, Member, PouId, Scalar, Shape, Structure, Value, elements};
+pub use strict::strict;
 pub use symbols::{Area, Section};
 pub use types::{Kind, Type};
 

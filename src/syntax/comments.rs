@@ -45,6 +45,44 @@ pub fn blank(text: &str, start: usize) -> (String, Option<Diagnostic>) {
     (String::from_utf8_lossy(&blanked).into_owned(), unclosed)
 }
 
+/// The comments of a text that the letter of edition 2 does not allow.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Comments {
+    /// `// …`
+    pub to_line_end: Vec<Span>,
+    /// The openings of comments inside comments.
+    pub nested: Vec<Span>,
+}
+
+/// Looks for them.
+#[must_use]
+pub fn comments(text: &str) -> Comments {
+    let bytes = text.as_bytes();
+    let mut found = Comments::default();
+    let mut at = 0;
+    while at < bytes.len() {
+        at = match &bytes[at..] {
+            [b'(', b'*', ..] => {
+                let end = block_end(bytes, at).unwrap_or(bytes.len());
+                let inner = bytes[at + 2..end].windows(2).enumerate().filter(|(_, pair)| *pair == b"(*");
+                found.nested.extend(inner.map(|(i, _)| Span::new(at + 2 + i, at + 4 + i)));
+                end
+            }
+            [b'/', b'/', ..] => {
+                let end = line_end(bytes, at);
+                found.to_line_end.push(Span::new(at, end));
+                end
+            }
+            [quote @ (b'\'' | b'"'), rest @ ..] => {
+                let stop = rest.iter().position(|b| b == quote || *b == b'\n').unwrap_or(rest.len());
+                at + (stop + 2).min(bytes.len() - at)
+            }
+            _ => at + 1,
+        };
+    }
+    found
+}
+
 fn block_end(bytes: &[u8], start: usize) -> Option<usize> {
     let mut depth = 0_usize;
     let mut at = start;

@@ -1,4 +1,5 @@
-//! Text to syntax tree and back, and PLCopen's projects in XML to the same tree. The grammar is `grammar/il.pest`; nothing outside this module knows pest reads it.
+//! Text to syntax tree and back, and PLCopen's projects in XML to the same tree. The grammar is `grammar/il.pest`; nothing
+//! outside this module knows pest reads it.
 
 pub mod ast;
 mod comments;
@@ -8,4 +9,11 @@ mod parse;
 mod plcopen;
 mod print;
 
+pub use comments::{Comments, comments};
 pub use parse::parse;
+
+/// The text with blanks instead of comments, of the same length.
+#[must_use]
+pub fn without_comments(text: &str) -> String {
+    comments::blank(text, 0).0
+}

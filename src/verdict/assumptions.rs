@@ -53,6 +53,9 @@ pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
     assumptions.extend(arithmetic(system, options));
     if let Some(time) = program.scan_time {
         assumptions.push(format!("a scan begins every {time} ms; during a scan the clock stands still"));
+        if program.presets_vary {
+            assumptions.push("a timer's preset time does not grow while the timer runs and is not called".to_owned());
+        }
     }
     if options.fair {
         assumptions.push("the PLC always scans again".to_owned());

@@ -19,7 +19,14 @@ pub fn assemble(declarations: &str, code: &str) -> FlatProgram {
     let lines = code.lines().map(str::trim).filter(|line| !line.is_empty());
     let code: Vec<Line> =
         lines.map(|line| Line { instruction: assembler.instruction(line), span: Span::default() }).collect();
-    FlatProgram { name: "p".to_owned(), variables, code, scan_time: None, restrictions: Default::default() }
+    FlatProgram {
+        name: "p".to_owned(),
+        variables,
+        code,
+        scan_time: None,
+        presets_vary: false,
+        restrictions: Default::default(),
+    }
 }
 
 fn variable(declaration: &str) -> Variable {

@@ -142,7 +142,14 @@ pub fn flat(mut variables: Vec<Variable>, code: Vec<Instruction>) -> FlatProgram
         variables.push(variable("input", Role::Input, Type::BOOL));
     }
     let code = code.into_iter().map(|instruction| Line { instruction, span: Span::default() }).collect();
-    FlatProgram { name: "flat".to_owned(), variables, code, scan_time: None, restrictions: Default::default() }
+    FlatProgram {
+        name: "flat".to_owned(),
+        variables,
+        code,
+        scan_time: None,
+        presets_vary: false,
+        restrictions: Default::default(),
+    }
 }
 
 /// One instruction on a variable `x`, to be fed with values of the current result and the variable.

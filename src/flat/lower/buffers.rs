@@ -20,6 +20,8 @@ pub struct Buffers {
     left: BTreeMap<(Type, usize), VarId>,
     /// Holds the value of a parenthesis until its operator takes it.
     right: BTreeMap<Type, VarId>,
+    /// Indices that choose what in-out variables stand for, while their call lasts.
+    held: BTreeSet<VarId>,
     /// Buffers that nothing needs at the moment.
     free: BTreeMap<(Type, u32), Vec<VarId>>,
     /// The variables of functions, and those of function blocks that begin anew with each call.
@@ -62,8 +64,25 @@ impl Lowering<'_> {
 
     /// Gives a buffer back.
     pub fn release(&mut self, buffer: VarId) {
+        if self.buffers.held.contains(&buffer) {
+            return;
+        }
         let variable = &self.variables[buffer.0];
-        self.buffers.free.entry((variable.ty, variable.bits)).or_default().push(buffer);
+        let free = self.buffers.free.entry((variable.ty, variable.bits)).or_default();
+        debug_assert!(!free.contains(&buffer), "a buffer is released once");
+        free.push(buffer);
+    }
+
+    /// Keeps the index of an address from being released until [`Lowering::let_go`]; the index, unless it is kept already.
+    pub fn hold(&mut self, address: Address) -> Option<VarId> {
+        let Address::Indexed(element) = address else { return None };
+        self.buffers.held.insert(element.index).then_some(element.index)
+    }
+
+    /// Releases an index that was kept.
+    pub fn let_go(&mut self, index: VarId) {
+        self.buffers.held.remove(&index);
+        self.release(index);
     }
 
     /// A name like this one that is not taken.

@@ -34,7 +34,7 @@ impl<'p> Lowering<'p> {
         }
         let is_function = pou.kind == PouKind::Function;
         if is_function && call.enable.en.is_some() {
-            let view = Frame { pou, variables: variables.clone(), exit: done, span: callee_span };
+            let view = Frame { pou, variables: variables.clone(), depth, exit: done, span: callee_span };
             result.into_iter().for_each(|position| self.initialise(&view, position, span));
         }
         self.enable(frame, &call.enable, skip, depth, span);
@@ -50,11 +50,11 @@ impl<'p> Lowering<'p> {
         let mut held = Vec::new();
         for (position, place) in &call.in_outs {
             let address = self.address(frame, place, None, span);
-            held.push(address);
+            held.extend(self.hold(address));
             variables[*position] = Some(address);
         }
         let exit = self.label();
-        let inner = Frame { pou, variables, exit, span: callee_span };
+        let inner = Frame { pou, variables, depth, exit, span: callee_span };
         for (position, variable) in pou.variables.iter().enumerate() {
             let is_given = call.inputs.iter().any(|(given, _)| *given == position);
             let anew = match variable.section {
@@ -75,7 +75,7 @@ impl<'p> Lowering<'p> {
             self.load(scalar.ty, Operand::Place(from.target()), span);
             self.store_in(frame, scalar.ty, *negated, place, span);
         }
-        held.into_iter().for_each(|address| self.release_address(Operand::Place(address.target())));
+        held.into_iter().for_each(|index| self.let_go(index));
         self.place_label(skip);
         if let (Some(position), true) = (result, is_function)
             && let (Some(scalar), Some(from)) = (pou.variables[position].shape.scalar(), inner.variables[position])

@@ -43,7 +43,7 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     let scan_time = has_timers.then_some(lowering.scan_time);
     let name = program.pous[program.entry.0].name.clone();
     let Lowering { variables, code, restrictions, timers, .. } = lowering;
-    let mut flat = FlatProgram { name, variables, code, restrictions, scan_time };
+    let mut flat = FlatProgram { name, variables, code, restrictions, scan_time, presets_vary: false };
     narrow(&mut flat, &timers);
     flat
 }
@@ -57,6 +57,8 @@ struct Frame<'p> {
     pou: &'p Pou,
     /// Where each of its variables is; nowhere if nothing can name it.
     variables: Vec<Option<Address>>,
+    /// How many parentheses around its call hold a value meanwhile.
+    depth: usize,
     /// Where a return goes.
     exit: Label,
     /// What its lines come from, if they have no text of their own.
@@ -127,7 +129,7 @@ impl<'p> Lowering<'p> {
                 variables[position] = Some(self.variables_of(&leaf, &variable.shape, &variable.initial));
             }
         }
-        Frame { pou, variables, exit: self.label(), span: None }
+        Frame { pou, variables, depth: 0, exit: self.label(), span: None }
     }
 
     /// Variables that begin anew with every scan get their values.

@@ -7,7 +7,8 @@ use crate::semantics::{CLOCK, Condition, Kind, PouId, RUNNING, Section, Shape, T
 use crate::source::Span;
 
 impl Lowering<'_> {
-    /// At the beginning of every scan each running clock advances by the scan time, until it has reached its preset time.
+    /// At the beginning of every scan each running clock advances by the scan time, until it has reached the greatest preset
+    /// time it can be given; where that is not known, the one it has.
     /// Says whether there are any.
     pub fn ticks(&mut self) -> bool {
         let entry = self.pou(self.program.entry);
@@ -24,8 +25,8 @@ impl Lowering<'_> {
             self.find(&variable.shape, first, variable.span, &mut timers);
             first += self.layouts.size(&variable.shape);
         }
-        for &(timer, running, span) in &timers {
-            self.tick(timer, running, span);
+        for (timer, running, span) in &mut timers {
+            timer.line = self.tick(*timer, *running, *span);
         }
         self.timers = timers.iter().map(|(timer, ..)| *timer).collect();
         !timers.is_empty()
@@ -56,7 +57,7 @@ impl Lowering<'_> {
             Some(VarId(first + self.layouts.offset(&shape, position)))
         };
         if let (true, Some(clock), Some(preset), Some(running)) = (pou.is_library, at(CLOCK), at("PT"), at(RUNNING)) {
-            timers.push((Timer { clock, preset, step: self.scan_time }, running, span));
+            timers.push((Timer { clock, preset, step: self.scan_time, line: 0 }, running, span));
             return;
         }
         for (i, variable) in pou.variables.iter().enumerate() {
@@ -68,12 +69,14 @@ impl Lowering<'_> {
         }
     }
 
-    fn tick(&mut self, timer: Timer, running: VarId, span: Span) {
+    /// The line that compares the clock.
+    fn tick(&mut self, timer: Timer, running: VarId, span: Span) -> usize {
         let stands = self.label();
         self.load_variable(Type::BOOL, running, span);
         self.jump(Condition::IfFalse, stands, span);
         self.load_variable(Type::TIME, timer.clock, span);
         let operand = Operand::Place(Target::Variable(timer.preset));
+        let line = self.code.len();
         self.emit(Instruction::Combine { function: Function::Ge, ty: Type::TIME, negated: false, operand }, span);
         self.jump(Condition::IfTrue, stands, span);
         self.load_variable(Type::TIME, timer.clock, span);
@@ -83,5 +86,6 @@ impl Lowering<'_> {
         self.emit(Instruction::Combine { function: Function::Add, ty, negated: false, operand }, span);
         self.store(Type::TIME, timer.clock, span);
         self.place_label(stands);
+        line
     }
 }

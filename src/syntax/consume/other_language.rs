@@ -44,8 +44,10 @@ fn language(line: &Pair<'_, Rule>) -> Option<&'static str> {
     }
 }
 
-/// `name := value`; in Instruction List `:=` stands inside parentheses only.
+/// `name := value;`. In Instruction List `:=` stands inside parentheses only, and no `;` ends a parameter.
 fn is_assignment(line: &Pair<'_, Rule>) -> bool {
     let left = line.as_str().split_once(":=").map_or("", |(left, _)| left);
-    line.as_rule() == Rule::bad_line && !left.is_empty() && !left.contains(['(', ':'])
+    let behind = line.get_input().get(line.as_span().end()..).unwrap_or_default();
+    let is_ended = behind.trim_start_matches([' ', '\t']).starts_with(';');
+    line.as_rule() == Rule::bad_line && is_ended && !left.is_empty() && !left.contains(['(', ':'])
 }
