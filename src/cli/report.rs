@@ -1,5 +1,6 @@
 //! The report of a check as text for people.
 
+use petril::explore::Stop;
 use petril::logic::View;
 use petril::source::Source;
 use petril::translate::{Part, System};
@@ -31,18 +32,29 @@ impl Text<'_> {
             out += &self.answer(answer, report);
         }
         // A check that holds is one word; the others are told like requirements.
-        let (fine, others): (Vec<_>, Vec<_>) =
-            report.checks.iter().partition(|check| check.outcome.verdict() == Verdict::Holds);
-        for check in others {
+        for check in report.checks.iter().filter(|check| check.outcome.verdict() != Verdict::Holds) {
             out += "\n";
             out += &self.answer(check, report);
         }
         out += "\n";
         out += &summary(report);
-        let names: Vec<&str> = fine.iter().map(|check| check.name.as_str()).collect();
-        if !names.is_empty() {
-            let verb = if names.len() == 1 { "holds" } else { "hold" };
-            out += &format!("checked without asking: {} {verb}\n", names.join(", "));
+        let named = |verdict| {
+            let checks = report.checks.iter().filter(|check| check.outcome.verdict() == verdict);
+            let names: Vec<&str> = checks.map(|check| check.name.as_str()).collect();
+            let verb = match verdict {
+                Verdict::Holds if names.len() == 1 => "holds",
+                Verdict::Holds => "hold",
+                Verdict::Violated if names.len() == 1 => "is violated",
+                Verdict::Violated => "are violated",
+                Verdict::Unknown if names.len() == 1 => "is unknown",
+                Verdict::Unknown => "are unknown",
+            };
+            (!names.is_empty()).then(|| format!("{} {verb}", names.join(", ")))
+        };
+        let checked: Vec<String> =
+            [Verdict::Violated, Verdict::Unknown, Verdict::Holds].into_iter().filter_map(named).collect();
+        if !checked.is_empty() {
+            out += &format!("checked without asking: {}\n", checked.join("; "));
         }
         out += &self.remarks(report);
         out
@@ -97,7 +109,12 @@ impl Text<'_> {
                 counted(depth, "firing")
             ),
         };
-        out += &format!("; {}\n", exploration.stop);
+        out += &match (&exploration.stop, exploration.complete) {
+            (Stop::Complete, false) => {
+                "; every state was explored, but none behind a scan that goes wrong\n".to_owned()
+            }
+            (stop, _) => format!("; {stop}\n"),
+        };
         for assumption in &report.assumptions {
             out += &format!("assumed: {assumption}\n");
         }
