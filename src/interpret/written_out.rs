@@ -76,6 +76,7 @@ fn standard_functions_have_the_values_of_the_standard() {
     assert_eq!(value("INT", "BOOL", "LD a\nGT b, 1", 9, 5), 1);
     assert_eq!(value("INT", "BOOL", "LD a\nGT b, 7", 9, 5), 0);
     assert_eq!(value("INT", "INT", "MAX(IN1 := (\nLD a\nADD 1\n), IN2 := (\nLD b\nMUL 2\n))", 5, 4), 8);
+    assert_eq!(value("INT", "INT", "MAX(IN1 := (\nLD a\nMUL( b\nADD( 1\nSUB a\n)\n)\n), IN2 := 0)", 2, 5), 8);
     assert_eq!(value("WORD", "WORD", "NOT(IN := a)", 0x00FF, 0), 0xFF00);
     assert_eq!(value("TIME", "TIME", "LD a\nADD T#1s", 500, 0), 1500);
 }

@@ -231,7 +231,7 @@ fn arguments(pair: Option<Pair<'_, Rule>>) -> Vec<Argument> {
 }
 
 /// The operator of a word that the grammar has read as one.
-fn operator(word: &str) -> Operator {
+pub fn operator(word: &str) -> Operator {
     let word = word.to_ascii_uppercase().replace('&', "AND");
     let find = |stem: &str| Verb::ALL.iter().find(|(_, w)| *w == stem).map(|&(verb, _)| verb);
     match find(&word) {

@@ -2,9 +2,12 @@
 
 use pest::iterators::Pair;
 
-use super::instructions::operation;
+use super::instructions::{operation, operator};
 use super::{name, span};
-use crate::syntax::ast::{Argument, Constant, Feed, Instruction, Literal, Name, Operand, Part, Path, Subscript};
+use crate::source::Span;
+use crate::syntax::ast::{
+    Argument, Constant, Feed, Instruction, Literal, Name, Operand, Operation, Part, Path, Subscript,
+};
 use crate::syntax::parse::Rule;
 
 /// The pair of the rule `constant`.
@@ -73,10 +76,7 @@ pub fn argument(pair: Pair<'_, Rule>) -> Option<Argument> {
                 named = Some((name, pieces.next()?.as_str() == "=>"));
             }
             Rule::argument_list => {
-                let list = piece.into_inner().map(|line| {
-                    let span = span(&line);
-                    Instruction { label: None, operation: Some(operation(line)), span }
-                });
+                let list = piece.into_inner().map(line);
                 let (name, _) = named.filter(|(_, output)| !output)?;
                 return Some(Argument::Input { name, value: Feed::List(list.collect()) });
             }
@@ -91,4 +91,25 @@ pub fn argument(pair: Pair<'_, Rule>) -> Option<Argument> {
         }
     }
     None
+}
+
+/// An instruction of a list in a call.
+fn line(pair: Pair<'_, Rule>) -> Instruction {
+    let span = span(&pair);
+    if !matches!(pair.as_rule(), Rule::outer_parenthesis | Rule::inner_parenthesis) {
+        return Instruction { label: None, operation: Some(operation(pair)), span };
+    }
+    let mut found = None;
+    let mut first = None;
+    let mut body = Vec::new();
+    for piece in pair.into_inner() {
+        match piece.as_rule() {
+            Rule::expr_operator => found = Some(operator(piece.as_str())),
+            Rule::operand => first = operand(piece),
+            _ => body.push(line(piece)),
+        }
+    }
+    let close = Span::new(span.end.saturating_sub(1), span.end);
+    let parenthesis = found.map(|operator| Operation::Parenthesis { operator, first, body, close });
+    Instruction { label: None, operation: parenthesis, span }
 }
