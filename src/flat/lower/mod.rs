@@ -58,6 +58,8 @@ struct Frame<'p> {
     exit: Label,
     /// What its lines come from, if they have no text of their own.
     span: Option<Span>,
+    /// How many parentheses it is called in; their buffers hold what they are waiting with.
+    depth: usize,
 }
 
 struct Lowering<'p> {
@@ -122,7 +124,7 @@ impl<'p> Lowering<'p> {
                 variables[position] = Some(self.variables_of(leaf, &variable.shape, &variable.initial));
             }
         }
-        Frame { pou, variables, exit: self.label(), span: None }
+        Frame { pou, variables, exit: self.label(), span: None, depth: 0 }
     }
 
     /// Variables that begin anew with every scan get their values.

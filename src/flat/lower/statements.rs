@@ -11,7 +11,7 @@ impl<'p> Lowering<'p> {
         let starts: Vec<Label> = (0..=frame.pou.body.len()).map(|_| self.label()).collect();
         for (statement, &start) in frame.pou.body.iter().zip(&starts) {
             self.place_label(start);
-            self.statement(frame, statement, 0, &starts);
+            self.statement(frame, statement, frame.depth, &starts);
         }
         self.place_label(starts[frame.pou.body.len()]);
     }
