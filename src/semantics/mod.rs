@@ -10,6 +10,7 @@ mod effect;
 mod expansion;
 mod function;
 mod inference;
+mod initial;
 mod interval;
 mod library;
 mod program;

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::declare::{Declare, enumerator};
+use super::initial::Constants;
 use super::library;
 use super::shape::{Enumeration, PouId, Scalar, Shape, Value};
 use super::symbols::{Area, Section, Symbol, Symbols, address};
 use super::types::{Kind, Type};
+use super::uses;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{
-    Declaration, Name, Operand, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested,
-};
+use crate::syntax::ast::{Declaration, Name, Operation, Path, Pou, PouKind, Unit, VarBlock, VarKind, with_nested};
 
 /// A file and the library.
 pub struct Project<'a> {
@@ -191,19 +191,10 @@ fn addresses(unit: &Unit, globals: &mut Symbols) {
     for pou in &unit.pous {
         let declared = pou.blocks.iter().flat_map(|block| &block.declarations).filter_map(|d| d.location.as_ref());
         let declared: BTreeSet<String> = declared.map(|location| address(&location.text)).collect();
-        for (instruction, _) in with_nested(&pou.body) {
-            let used = match &instruction.operation {
-                Some(Operation::Simple { operands, .. }) => operands.as_slice(),
-                Some(Operation::Parenthesis { first, .. }) => first.as_slice(),
-                _ => &[],
-            };
-            paths.extend(used.iter().filter_map(|operand| match operand {
-                Operand::Variable(path) if !declared.contains(&address(&path.root.text)) => Some(path),
-                _ => None,
-            }));
-        }
+        let used = uses::named(&pou.body).into_iter().filter(|path| path.root.text.starts_with('%'));
+        paths.extend(used.filter(|path| !declared.contains(&address(&path.root.text))));
     }
-    for path in paths.into_iter().filter(|path| path.root.text.starts_with('%')) {
+    for path in paths {
         let Some((area, ty)) = read_address(&path.root.text) else { continue };
         if globals.find(&path.root.text).is_some() {
             continue;
@@ -278,7 +269,7 @@ fn result(pou: &Pou, symbols: &mut Symbols, declare: &mut Declare<'_>) {
         }
         Some(result) => {
             let spec = crate::syntax::ast::TypeSpec::Named(result.clone());
-            match declare.shape(&spec, symbols).map(|(shape, _)| shape) {
+            match declare.shape(&spec, Constants::none()).map(|(shape, _)| shape) {
                 Some(shape) if shape.scalar().is_none() => {
                     let message = format!("a function cannot return {shape}");
                     declare
@@ -338,15 +329,10 @@ fn declaration_of(
     declare: &mut Declare<'_>,
     may_locate: bool,
 ) {
-    let constants = |symbols: &Symbols| Symbols::clone(symbols);
-    let scope = if symbols.list().iter().any(|s| s.section == Section::Constant) {
-        constants(symbols)
-    } else {
-        globals.clone()
-    };
-    let shaped = declaration.spec.as_ref().and_then(|spec| declare.shape(spec, &scope));
+    let constants = Constants::of(symbols, globals);
+    let shaped = declaration.spec.as_ref().and_then(|spec| declare.shape(spec, constants));
     let value = match (&declaration.initial, &shaped) {
-        (Some(initial), Some((shape, _))) => declare.value(initial, shape, &scope),
+        (Some(initial), Some((shape, _))) => declare.value(initial, shape, constants),
         (_, Some((_, default))) => Some(default.clone()),
         (_, None) => None,
     };

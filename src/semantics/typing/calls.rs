@@ -333,7 +333,9 @@ impl Typing<'_> {
         for (position, symbol) in symbols.iter().enumerate().filter(|(_, symbol)| symbol.section == Section::InOut) {
             if !call.in_outs.iter().any(|(given, _)| *given == position) {
                 let block = &self.context.project.pou(id).name.text;
-                let known = self.diagnostics.iter().any(|d| d.span().start >= span.start && d.span().end <= span.end);
+                // What was said of this call was said last.
+                let said = self.diagnostics.iter().rev().take(100);
+                let known = said.map(Diagnostic::span).any(|at| at.start >= span.start && at.end <= span.end);
                 if !known {
                     let message = format!("the in-out variable `{}` of `{block}` is not given", symbol.name);
                     let help = format!("give it a variable, like `{} := x`", symbol.name);
