@@ -60,6 +60,8 @@ codes! {
     FileTooLarge = "E0110",
     /// The file declares several programs.
     SeveralPrograms = "E0111",
+    /// A declaration is nested too deeply.
+    DeclarationTooDeep = "E0112",
 
     /// A name is declared twice.
     NameDeclaredTwice = "E0201",

@@ -4,6 +4,7 @@ pub mod ast;
 mod comments;
 mod consume;
 mod expected;
+mod nesting;
 mod parse;
 mod print;
 
