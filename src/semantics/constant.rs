@@ -22,7 +22,6 @@ pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
         {
             enumeration.find(name).ok_or_else(|| format!("is none of the values of `{}`", enumeration.name))? as i128
         }
-        (_, Some(_)) | (Some(Literal::Enumerated(..)), None) => return Err(none()),
         (Some(Literal::Boolean(value)), None) if ty.is_bool() => i128::from(*value),
         (Some(Literal::Time(micros)), None) if ty.kind == Kind::Time => milliseconds(*micros)?,
         (Some(Literal::Typed(name, value)), None) if Type::named(name) == Some(ty) => *value,

@@ -160,7 +160,7 @@ fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Pou
     }
     let calls = own().flat_map(|(id, _)| project.calls(id).into_iter().filter(move |(callee, _)| *callee != id));
     let called: BTreeSet<PouId> = calls.map(|(callee, _)| callee).collect();
-    let (id, pou) = own().filter(|(id, _)| !called.contains(id)).last().or_else(|| own().last())?;
+    let (id, pou) = own().rfind(|(id, _)| !called.contains(id)).or_else(|| own().next_back())?;
     let message = format!("this file holds no program, so {} `{}` is checked by itself", pou.kind, pou.name.text);
     diagnostics.push(
         Diagnostic::new(Code::CheckedByItself, pou.name.span, message)

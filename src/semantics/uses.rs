@@ -1,6 +1,7 @@
 //! Which variables an instruction names, and for what.
 
 use super::effect::{block, shape};
+use super::symbols::Symbols;
 use super::{Context, PouId, Section, Shape};
 use crate::syntax::ast::{
     Argument, Arguments, Feed, Instruction, Operand, Operation, Part, Path, Subscript, Verb, with_nested,
@@ -86,7 +87,7 @@ fn of_arguments<'a>(
 ) {
     let symbols = callee.map(|id| context.project.symbols(id));
     let section = |name: &str| symbols.and_then(|symbols| symbols.find(name)).map(|(_, symbol)| symbol.section);
-    let by_position = symbols.into_iter().flat_map(|symbols| symbols.list()).map(|symbol| symbol.section);
+    let by_position = symbols.into_iter().flat_map(Symbols::list).map(|symbol| symbol.section);
     let by_position = by_position.filter(|section| matches!(section, Section::Input | Section::InOut));
     // Behind the name of a function alone, the first input is the current result.
     let mut by_position = by_position.skip(usize::from(!arguments.enclosed));

@@ -181,7 +181,7 @@ impl<'p> Lowering<'p> {
                 };
                 let name = self.unused(&name);
                 let leaf = Leaf { name, role: Role::Buffer, span: variable.span };
-                self.variables_of(leaf, &variable.shape, &variable.initial)
+                self.variables_of(&leaf, &variable.shape, &variable.initial)
             }));
         }
         self.buffers.units.insert(id, variables.clone());

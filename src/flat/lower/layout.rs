@@ -83,16 +83,16 @@ pub struct Leaf {
 
 impl Lowering<'_> {
     /// Makes the elementary variables of a shape; the first one's address.
-    pub fn variables_of(&mut self, leaf: Leaf, shape: &Shape, initial: &Value) -> Address {
+    pub fn variables_of(&mut self, leaf: &Leaf, shape: &Shape, initial: &Value) -> Address {
         let first = self.variables.len();
         self.add(leaf, shape, initial);
         Address::Direct(first)
     }
 
-    fn add(&mut self, leaf: Leaf, shape: &Shape, initial: &Value) {
+    fn add(&mut self, leaf: &Leaf, shape: &Shape, initial: &Value) {
         match shape {
             Shape::Scalar(scalar) => {
-                let variable = variable(&leaf, scalar, initial);
+                let variable = variable(leaf, scalar, initial);
                 self.buffers.take(&variable.name);
                 self.variables.push(variable);
             }
@@ -101,7 +101,7 @@ impl Lowering<'_> {
                 for (position, index) in indices(ranges).enumerate() {
                     let name = format!("{}[{index}]", leaf.name);
                     let value = parts.get(&position).copied().unwrap_or(&Value::Default);
-                    self.add(Leaf { name, ..leaf.clone() }, of, value);
+                    self.add(&Leaf { name, ..leaf.clone() }, of, value);
                 }
             }
             Shape::Structure(structure) => {
@@ -109,7 +109,7 @@ impl Lowering<'_> {
                 for (position, member) in structure.members.iter().enumerate() {
                     let name = format!("{}.{}", leaf.name, member.name);
                     let value = parts.get(&position).copied().unwrap_or(&member.initial);
-                    self.add(Leaf { name, ..leaf.clone() }, &member.shape, value);
+                    self.add(&Leaf { name, ..leaf.clone() }, &member.shape, value);
                 }
             }
             Shape::Instance(id) => {
@@ -121,7 +121,7 @@ impl Lowering<'_> {
                     let role = if inner.section == Section::Constant { Role::Constant } else { Role::Memory };
                     let span = if is_library { leaf.span } else { inner.span };
                     let value = parts.get(&position).copied().unwrap_or(&inner.initial);
-                    self.add(Leaf { name, role, span }, &inner.shape, value);
+                    self.add(&Leaf { name, role, span }, &inner.shape, value);
                 }
             }
         }

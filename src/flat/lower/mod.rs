@@ -107,21 +107,21 @@ impl<'p> Lowering<'p> {
             let stored = !matches!(variable.section, Section::External(_) | Section::InOut | Section::Temp);
             let address = stored.then(|| {
                 let leaf = Leaf { name: variable.name.clone(), role, span: variable.span };
-                self.variables_of(leaf, &variable.shape, &variable.initial)
+                self.variables_of(&leaf, &variable.shape, &variable.initial)
             });
             variables.push(address);
         }
         for variable in &self.program.globals {
             let role = layout::role(variable.section, variable.area);
             let leaf = Leaf { name: variable.name.clone(), role, span: variable.span };
-            let address = self.variables_of(leaf, &variable.shape, &variable.initial);
+            let address = self.variables_of(&leaf, &variable.shape, &variable.initial);
             self.globals.push(address);
         }
         // Buffers stand behind everything that was declared.
         for (position, variable) in pou.variables.iter().enumerate() {
             if variable.section == Section::Temp {
                 let leaf = Leaf { name: self.unused(&variable.name), role: Role::Buffer, span: variable.span };
-                variables[position] = Some(self.variables_of(leaf, &variable.shape, &variable.initial));
+                variables[position] = Some(self.variables_of(&leaf, &variable.shape, &variable.initial));
             }
         }
         Frame { pou, variables, exit: self.label(), span: None, depth: 0 }

@@ -81,7 +81,7 @@ impl<'p> Lowering<'p> {
             StandardFunction::Sel => self.select(ty, rest, span),
             StandardFunction::Mux => self.choose(from, ty, rest, span),
             StandardFunction::Fold(function) => {
-                rest.iter().for_each(|other| self.function(function, from, *other, span))
+                rest.iter().for_each(|other| self.function(function, from, *other, span));
             }
             StandardFunction::Chain(function) => self.chain(function, from, rest, span),
         }

@@ -121,12 +121,17 @@ impl Typing<'_> {
     /// What a function asks of the type of its operands.
     pub fn demand(&mut self, function: Function, ty: TypeId, span: Span, word: &str) {
         let class = match function {
-            Function::And | Function::Or | Function::Xor => Class::Bits,
             Function::Add | Function::Sub => Class::Magnitudes,
             Function::Mul | Function::Div | Function::Mod => Class::Integers,
             Function::Eq | Function::Ne => return,
             Function::Gt | Function::Ge | Function::Le | Function::Lt => Class::Ordered,
-            Function::Shl | Function::Shr | Function::Rol | Function::Ror => Class::Bits,
+            Function::And
+            | Function::Or
+            | Function::Xor
+            | Function::Shl
+            | Function::Shr
+            | Function::Rol
+            | Function::Ror => Class::Bits,
         };
         self.types.demand(ty, class, span, word);
     }

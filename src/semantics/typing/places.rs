@@ -217,16 +217,12 @@ impl Typing<'_> {
     fn index(&mut self, index: &Subscript, (lower, upper): (i64, i64), whole: &str) -> Option<Index> {
         match index {
             Subscript::Constant(constant) => {
-                let number = match constant.literal {
-                    Some(Literal::Integer(number) | Literal::Typed(_, number)) => number,
-                    _ => {
-                        let message = format!("`{}` is no index", constant.text);
-                        self.diagnostics.push(
-                            Diagnostic::new(Code::IndexUnfit, constant.span, message)
-                                .help("an index is a whole number"),
-                        );
-                        return None;
-                    }
+                let Some(Literal::Integer(number) | Literal::Typed(_, number)) = constant.literal else {
+                    let message = format!("`{}` is no index", constant.text);
+                    self.diagnostics.push(
+                        Diagnostic::new(Code::IndexUnfit, constant.span, message).help("an index is a whole number"),
+                    );
+                    return None;
                 };
                 match i64::try_from(number).ok().filter(|number| (lower..=upper).contains(number)) {
                     Some(number) => Some(Index::Constant(number)),
