@@ -61,7 +61,7 @@ codes! {
     /// The file declares several programs.
     SeveralPrograms = "E0111",
     /// A declaration is nested too deeply.
-    DeclarationTooDeep = "E0112",
+    DeclarationTooDeep = "E0113",
 
     /// A name is declared twice.
     NameDeclaredTwice = "E0201",

@@ -278,6 +278,18 @@ fn timers_count_scans_whether_called_or_not() {
 }
 
 #[test]
+fn a_timer_may_set_its_own_preset_time() {
+    let program =
+        flat("PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR t : TON; END_VAR\nCAL t(IN := a, PT := t.ET)\nEND_PROGRAM");
+    let bits = |name: &str| program.find(name).map(|id| program.variable(id).bits);
+    assert_eq!([bits("t.PT"), bits("t.CLOCK")], [Some(32); 2]);
+    let fixed =
+        flat("PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR t : TON; END_VAR\nCAL t(IN := a, PT := T#200ms)\nEND_PROGRAM");
+    let bits = |name: &str| fixed.find(name).map(|id| fixed.variable(id).bits);
+    assert_eq!([bits("t.PT"), bits("t.CLOCK")], [Some(8); 2]);
+}
+
+#[test]
 fn a_task_says_how_long_a_scan_is() {
     let text = "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR t : TP; END_VAR\nLD i\nIN t\nEND_PROGRAM\n\
                 CONFIGURATION c RESOURCE r ON plc TASK slow (INTERVAL := T#1s, PRIORITY := 1);\nTASK fast (INTERVAL := T#5ms, PRIORITY := 0);\n\

@@ -17,7 +17,7 @@ fn is_accepted(declarations: &str, body: &str) {
 
 #[test]
 fn deep_declarations_are_refused_before_anything_follows_them() {
-    let deep = &["E0112", "more than 100 deep"];
+    let deep = &["E0113", "more than 100 deep"];
     let array = "ARRAY [0..0] OF ";
     is_refused(&format!("VAR_GLOBAL\ng : {}INT;\nEND_VAR", array.repeat(MANY)), "2:1595", deep);
     is_refused(&format!("VAR_GLOBAL\ng : {}", "ARRAY ".repeat(MANY)), "2:605", deep);
@@ -96,6 +96,6 @@ fn thousands_of_unfinished_pieces_are_read_once() {
     let head = "CONFIGURATION c\n";
     is_refused(&format!("{head}{}", "PROGRAM a : b (x := y,\n".repeat(MANY / 5)), "", &["E0102"]);
     is_refused(&format!("{head}{}", "TASK t (INTERVAL := T#1ms,\n".repeat(MANY / 5)), "", &["E0102"]);
-    is_refused(&format!("VAR_GLOBAL\n{}", "a : (b,\n".repeat(MANY)), "", &["E0112"]);
+    is_refused(&format!("VAR_GLOBAL\n{}", "a : (b,\n".repeat(MANY)), "", &["E0113"]);
     is_refused(&format!("VAR_GLOBAL\n{}", "a : INT := \n".repeat(MANY / 5)), "", &["E0102"]);
 }
