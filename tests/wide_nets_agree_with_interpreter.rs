@@ -4,111 +4,20 @@
 
 mod support;
 
-use petril::flat::{FlatProgram, Function, Hazard, Instruction, Operand, Target};
+use petril::flat::{Function, Hazard, Instruction, Operand, Target};
 use petril::interpret::Machine;
 use petril::semantics::{Role, Type, VarId};
-use petril::translate::{PlaceRole, Plant, System, TransitionRole};
-use petril::witness::Replay;
+use petril::translate::{PlaceRole, Plant, System};
 use proptest::prelude::*;
+use support::agreement::{Inputs, agree, programs, replay};
 use support::random_flat::{Choices, program};
 use support::token_game::{Game, flat, variable};
 
 /// A scan is not followed any longer.
 const STEPS: usize = 200;
 
-fn programs() -> u32 {
-    std::env::var("PETRIL_PROGRAMS").ok().and_then(|count| count.parse().ok()).unwrap_or(2000)
-}
-
-/// The values of the inputs in a scan.
-type Inputs = Vec<(VarId, u64)>;
-
-/// What happened in some scans.
-#[derive(Default)]
-struct Met {
-    hazards: Vec<Hazard>,
-    ended: bool,
-}
-
-/// Plays scans on the net beside the interpreter.
-fn agree(game: &mut Game, program: &FlatProgram, scans: &[Inputs]) -> Result<Met, TestCaseError> {
-    let mut machine = Machine::new(program);
-    let mut met = Met::default();
-    let variables = || (0..program.variables.len()).map(VarId);
-    for inputs in scans {
-        for &(input, value) in inputs {
-            machine.set(input, value);
-        }
-        machine.begin_scan();
-        let wanted = |role| match role {
-            TransitionRole::Copy { variable, bit, value } => {
-                inputs.iter().any(|&(input, pattern)| input == variable && (pattern >> bit & 1 == 1) == value)
-            }
-            _ => true,
-        };
-        while game.control() != PlaceRole::Line(0) {
-            game.fire(wanted);
-        }
-        let mut width = 1;
-        for _ in 0..STEPS {
-            if machine.at_end() {
-                break;
-            }
-            let instruction = program.code[machine.line()].instruction;
-            game.hazards.clear();
-            let line = machine.line();
-            game.fire(|_| true);
-            while !matches!(game.control(), PlaceRole::Line(_)) {
-                game.fire(|_| true);
-            }
-            let hazard = machine.step();
-            let found: Vec<(usize, Hazard)> = std::mem::take(&mut game.hazards);
-            let text = program.text(instruction);
-            prop_assert_eq!(found, hazard.map(|hazard| (line, hazard)).into_iter().collect::<Vec<_>>(), "{}", text);
-            prop_assert!(hazard.is_none_or(|hazard| instruction.hazards().contains(&hazard)), "{}", text);
-            prop_assert_eq!(game.control(), PlaceRole::Line(machine.line()), "{}", text);
-            for variable in variables() {
-                prop_assert_eq!(game.value(variable), Some(machine.value(variable)), "{} in {}", text, variable.0);
-            }
-            width = instruction.gives().map_or(width, |ty| ty.width);
-            let result = machine.result() & (u64::MAX >> (64 - width));
-            prop_assert_eq!(game.result(width), Some(result), "{} in the current result", text);
-            prop_assert!(game.registers_are_clear(), "{}", text);
-            met.hazards.extend(hazard);
-        }
-        if !machine.at_end() {
-            return Ok(met);
-        }
-        met.ended = true;
-        game.fire(|_| true);
-    }
-    Ok(met)
-}
-
-/// The replay of the same scans finds nothing to complain of.
-fn replay(system: &System, scans: &[Inputs]) -> Result<(), TestCaseError> {
-    let mut replay = Replay::new(system);
-    let fire = |replay: &mut Replay<'_>, role: &dyn Fn(TransitionRole) -> bool| {
-        replay.fire_only(role).map_err(|what| TestCaseError::fail(what.to_string()))
-    };
-    for inputs in scans {
-        fire(&mut replay, &|role| role == TransitionRole::Block)?;
-        for &(variable, pattern) in inputs {
-            for bit in (0..system.program.variable(variable).bits).rev() {
-                let copy = TransitionRole::Copy { variable, bit, value: pattern >> bit & 1 == 1 };
-                fire(&mut replay, &|role| role == copy)?;
-            }
-        }
-        while !replay.is_at(PlaceRole::Line(system.program.end())) {
-            fire(&mut replay, &|role| matches!(role, TransitionRole::Line(_)))?;
-        }
-        fire(&mut replay, &|role| role == TransitionRole::Unblock)?;
-    }
-    Ok(())
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(programs()))]
+    #![proptest_config(ProptestConfig::with_cases(programs(2000)))]
 
     #[test]
     fn after_every_instruction(numbers in proptest::collection::vec(any::<u32>(), 0..160)) {
@@ -118,7 +27,7 @@ proptest! {
         let mut scan = || inputs.iter().map(|&id| (id, choices.pattern(system.program.variable(id).ty))).collect();
         let scans: Vec<Inputs> = (0..3).map(|_| scan()).collect();
         let mut game = Game::new(system.clone());
-        let met = agree(&mut game, &system.program, &scans)?;
+        let met = agree(&mut game, &system.program, &scans, STEPS)?;
         if met.ended && game.control() == PlaceRole::Idle && numbers.len() % 4 == 0 {
             replay(&system, &scans)?;
         }

@@ -63,6 +63,8 @@ codes! {
     SeveralPrograms = "E0111",
     /// A project in XML is not what its format asks for.
     XmlSyntax = "E0112",
+    /// A declaration is nested too deeply.
+    DeclarationTooDeep = "E0113",
 
     /// A name is declared twice.
     NameDeclaredTwice = "E0201",

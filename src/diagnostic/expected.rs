@@ -22,6 +22,9 @@ pub fn expected<R: RuleType>(
     };
     // The end is where the last word ends.
     let at = if text[at..].trim().is_empty() { at.min(text.trim_end().len()) } else { at };
+    // Blanks that the grammar does not know belong to no token.
+    let blanks = text[at..].find(|c: char| c == '\n' || !c.is_whitespace()).unwrap_or(0);
+    let at = at + blanks;
     let token = first_token(&text[at..]);
     let span = Span::new(start + at, start + at + token.len());
     let found = if token.is_empty() { end.to_owned() } else { format!("`{token}`") };

@@ -18,6 +18,9 @@ pub struct Timer {
     pub line: usize,
 }
 
+/// A variable that has been given a greater number this often may have any.
+const MAX_RAISES: usize = 1000;
+
 /// Narrows the variables that are only given constants and copies: `preset := T#200ms` needs 8 bits, not 32.
 pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
     let targets: BTreeSet<usize> = program
@@ -60,12 +63,15 @@ pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
         }
     }
     let mut work: Vec<usize> = (0..greatest.len()).collect();
+    let mut raised = vec![0; greatest.len()];
     while let Some(from) = work.pop() {
         for &(to, more) in &copies[from] {
             // What is as wide as its type may be negative; then nothing is known.
             let value = greatest[from].saturating_add(more).min(mask(to));
             if value > greatest[to] {
-                greatest[to] = value;
+                raised[to] += 1;
+                // A clock that sets its own preset time advances for ever, step by step.
+                greatest[to] = if raised[to] > MAX_RAISES { mask(to) } else { value };
                 work.push(to);
             }
         }

@@ -96,6 +96,31 @@ fn functions_begin_anew_and_return_early() {
 }
 
 #[test]
+fn a_function_called_in_parentheses_has_parentheses_of_its_own() {
+    let body = "FUNCTION f : INT VAR_INPUT x : INT; END_VAR\nLD 100\nADD( x\nADD( 1\n)\n)\nST f\nEND_FUNCTION\n\
+                PROGRAM p VAR_INPUT a : INT; END_VAR VAR_OUTPUT q, r : INT; END_VAR\n\
+                LD 10\nADD(\nf(x := a)\n)\nST q\n\
+                LD 10\nADD( 5\nADD(\nf(x := a)\nADD( 1\n)\n)\n)\nST r\nEND_PROGRAM";
+    let program = flat(body);
+    let mut run = Run::new(&program);
+    run.scan(&[("a", 2)]);
+    assert_eq!((run.get("q"), run.get("r")), (10 + 103, 10 + (5 + (103 + 1))));
+}
+
+#[test]
+fn a_call_whose_enable_calls_the_same_function_is_not_made() {
+    let body = "FUNCTION f : BOOL VAR_INPUT x : BOOL; END_VAR\nLD x\nST f\nEND_FUNCTION\n\
+                PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\n\
+                f(EN := (\nLD a\nf\nNOT\n), x := TRUE)\nST q\nEND_PROGRAM";
+    let program = flat(body);
+    let mut run = Run::new(&program);
+    run.scan(&[("a", 1)]);
+    assert_eq!(run.get("q"), 0, "`EN` is FALSE, and the function has not been called yet");
+    run.scan(&[("a", 0)]);
+    assert_eq!(run.get("q"), 1);
+}
+
+#[test]
 fn instances_keep_their_own_values() {
     let text = "FUNCTION_BLOCK inner\nVAR_INPUT d : INT; END_VAR VAR_OUTPUT sum : INT; END_VAR\n\
                 LD sum\nADD d\nST sum\nEND_FUNCTION_BLOCK\n\
@@ -203,6 +228,16 @@ fn subranges_and_enumerations_have_their_limits() {
 }
 
 #[test]
+fn enumerations_are_as_wide_as_what_is_copied_to_them() {
+    let text = "TYPE Colour : (Red, Green, Blue); END_TYPE\n\
+                PROGRAM p VAR_INPUT i : Colour; END_VAR VAR copy, own, next : Colour; END_VAR VAR_OUTPUT q : Colour; END_VAR\n\
+                LD i\nST copy\nLD Blue\nST own\nLD own\nST next\nST q\nEND_PROGRAM";
+    let program = flat(text);
+    let bits = |name: &str| program.find(name).map(|id| program.variable(id).bits);
+    assert_eq!(["i", "copy", "own", "next", "q"].map(bits), [8, 8, 2, 2, 2].map(Some));
+}
+
+#[test]
 fn globals_and_addresses_are_one_variable_everywhere() {
     let text = "VAR_GLOBAL total : INT := 3; CONSTANTLY AT %MW2 : INT; END_VAR VAR_GLOBAL CONSTANT step : INT := 2; END_VAR\n\
                 FUNCTION_BLOCK f\nVAR_EXTERNAL total : INT; END_VAR VAR_EXTERNAL CONSTANT step : INT; END_VAR\n\
@@ -213,6 +248,15 @@ fn globals_and_addresses_are_one_variable_everywhere() {
     let mut run = Run::new(&program);
     run.scan(&[("%I0.0", 1)]);
     assert_eq!((run.get("total"), run.get("lamp"), run.get("%Q0.2"), run.get("CONSTANTLY")), (7, 1, 1, 7));
+}
+
+#[test]
+fn an_address_may_stand_wherever_a_variable_may() {
+    let uses = ["LD FALSE\nSEL 1, %MW4\nST q", "MOVE(IN := %MW4)\nST q", "MOVE(IN := (\nLD %MW4\n))\nST q"];
+    for body in uses {
+        let program = flat(&format!("PROGRAM p VAR_OUTPUT q : WORD; END_VAR\n{body}\nEND_PROGRAM"));
+        assert!(program.find("%MW4").is_some(), "{body}");
+    }
 }
 
 #[test]
@@ -232,6 +276,18 @@ fn timers_count_scans_whether_called_or_not() {
     let bits = |name: &str| program.variable(program.find(name).unwrap()).bits;
     assert_eq!((bits("t.PT"), bits("t.ET"), bits("t.CLOCK")), (6, 6, 6), "up to 50, or 50 + 10");
     assert_eq!(program.scan_time, Some(10));
+}
+
+#[test]
+fn a_timer_may_set_its_own_preset_time() {
+    let program =
+        flat("PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR t : TON; END_VAR\nCAL t(IN := a, PT := t.ET)\nEND_PROGRAM");
+    let bits = |name: &str| program.find(name).map(|id| program.variable(id).bits);
+    assert_eq!([bits("t.PT"), bits("t.CLOCK")], [Some(32); 2]);
+    let fixed =
+        flat("PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR t : TON; END_VAR\nCAL t(IN := a, PT := T#200ms)\nEND_PROGRAM");
+    let bits = |name: &str| fixed.find(name).map(|id| fixed.variable(id).bits);
+    assert_eq!([bits("t.PT"), bits("t.CLOCK")], [Some(8); 2]);
 }
 
 #[test]

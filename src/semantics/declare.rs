@@ -1,20 +1,20 @@
 //! Declarations to shapes and values at power-on.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::constant::{number, wider};
+use super::initial::Constants;
 use super::shape::{Enumeration, Member, PouId, Scalar, Shape, Structure, Value, elements};
-use super::symbols::{Section, Symbol, Symbols};
+use super::symbols::Symbols;
 use super::types::{Kind, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Initial, InitialKind, Literal, Name, Range, TypeDeclaration, TypeSpec};
+use crate::syntax::ast::{Literal, Name, Range, TypeDeclaration, TypeSpec};
 
-/// A variable may have as many values as this.
+/// A variable may have as many values as this, and an enumeration too.
 const MAX_ELEMENTS: usize = 1 << 16;
 
-/// A type may be made of types that are made of types …, as deep as this.
+/// Types may be nested this deep, through all their names. The limit keeps everything that walks them within its stack.
 const MAX_DEPTH: usize = 100;
 
 /// The types of a file, and what else a declaration may name.
@@ -29,19 +29,7 @@ pub struct Declare<'a> {
     /// Whether the unit that is read is a function.
     pub in_function: bool,
     /// The variables of the units, once they are known.
-    known: Option<Vec<Symbols>>,
-}
-
-/// The variables that a declaration may name: those before it, and global ones.
-pub struct Scope<'a> {
-    pub own: &'a Symbols,
-    pub globals: &'a Symbols,
-}
-
-impl Scope<'_> {
-    fn find(&self, name: &str) -> Option<&Symbol> {
-        self.own.find(name).or_else(|| self.globals.find(name)).map(|(_, symbol)| symbol)
-    }
+    pub known: Option<Vec<Symbols>>,
 }
 
 impl<'a> Declare<'a> {
@@ -76,12 +64,12 @@ impl<'a> Declare<'a> {
         declare
     }
 
-    fn report(&mut self, code: Code, span: Span, message: String, more: impl FnOnce(Diagnostic) -> Diagnostic) {
+    pub fn report(&mut self, code: Code, span: Span, message: String, more: impl FnOnce(Diagnostic) -> Diagnostic) {
         self.diagnostics.push(more(Diagnostic::new(code, span, message)));
     }
 
     /// What a type specification stands for, and the value that its variables have at power-on. `None` has been reported.
-    pub fn shape(&mut self, spec: &TypeSpec, constants: &Scope<'_>) -> Option<(Shape, Value)> {
+    pub fn shape(&mut self, spec: &TypeSpec, constants: Constants<'_>) -> Option<(Shape, Value)> {
         match spec {
             TypeSpec::Named(name) => self.named(name),
             TypeSpec::Subrange { base, range } => {
@@ -109,11 +97,14 @@ impl<'a> Declare<'a> {
                 for range in ranges {
                     let (lower, upper) = self.range(range, constants)?;
                     let whole = i64::try_from(lower).ok().zip(i64::try_from(upper).ok());
-                    let length = upper.checked_sub(lower).filter(|&length| length < MAX_ELEMENTS as i128);
-                    numbers.extend(length.and(whole));
+                    let is_small = |&(lower, upper): &(i64, i64)| {
+                        // So that no length and no distance overflows.
+                        lower.unsigned_abs().max(upper.unsigned_abs()) < 1 << 62 && upper - lower < MAX_ELEMENTS as i64
+                    };
+                    numbers.extend(whole.filter(is_small));
                 }
                 let (of, initial) = self.shape(of, constants)?;
-                let count = numbers.iter().try_fold(leaves(&of), |n, (lower, upper)| {
+                let count = numbers.iter().try_fold(of.leaves(), |n, (lower, upper)| {
                     n.checked_mul((upper - lower + 1) as usize).filter(|&n| n <= MAX_ELEMENTS)
                 });
                 if numbers.len() < ranges.len() || count.is_none() {
@@ -124,19 +115,23 @@ impl<'a> Declare<'a> {
                     return None;
                 }
                 let initial = repeated(&initial, elements(&numbers));
-                Some((Shape::Array { ranges: numbers, of: Box::new(of) }, initial))
+                let shape = Shape::Array { ranges: numbers, of: Box::new(of) };
+                self.not_too_deep(&shape, *span)?;
+                Some((shape, initial))
             }
-            TypeSpec::Structure { members, span } => self.structure(("a structure", *span), members, constants),
+            TypeSpec::Structure { members, span } => self.structure("a structure", members, *span, constants),
         }
     }
 
     fn structure(
         &mut self,
-        (name, span): (&str, Span),
+        name: &str,
         declarations: &[crate::syntax::ast::Declaration],
-        constants: &Scope<'_>,
+        span: Span,
+        constants: Constants<'_>,
     ) -> Option<(Shape, Value)> {
         let mut members: Vec<Member> = Vec::new();
+        let mut names = BTreeSet::new();
         for declaration in declarations {
             let (shape, default) = self.shape(declaration.spec.as_ref()?, constants)?;
             let initial = match &declaration.initial {
@@ -144,7 +139,7 @@ impl<'a> Declare<'a> {
                 None => default,
             };
             for name in &declaration.names {
-                if members.iter().any(|member| member.name.eq_ignore_ascii_case(&name.text)) {
+                if !names.insert(name.key()) {
                     let message = format!("the member `{}` is declared twice", name.text);
                     self.report(Code::NameDeclaredTwice, name.span, message, |d| d);
                     continue;
@@ -152,24 +147,45 @@ impl<'a> Declare<'a> {
                 members.push(Member { name: name.text.clone(), shape: shape.clone(), initial: initial.clone() });
             }
         }
-        let shape = Shape::Structure(Rc::new(Structure { name: name.to_owned(), members }));
-        if leaves(&shape) > MAX_ELEMENTS {
+        let structure = Structure::new(name.to_owned(), members);
+        if structure.leaves > MAX_ELEMENTS {
             let message = format!("this structure has more than {MAX_ELEMENTS} values");
-            self.report(Code::VariableTooLarge, span, message, |d| {
-                d.help("make its arrays as large as the program needs them")
-            });
+            let help = "every value becomes places of the net; make the structure as large as the program needs it";
+            self.report(Code::VariableTooLarge, span, message, |d| d.help(help));
             return None;
         }
+        let shape = Shape::Structure(Rc::new(structure));
+        self.not_too_deep(&shape, span)?;
         Some((shape, Value::Default))
     }
 
+    fn not_too_deep(&mut self, shape: &Shape, span: Span) -> Option<()> {
+        if shape.depth() > MAX_DEPTH {
+            self.too_deep(span);
+            return None;
+        }
+        Some(())
+    }
+
+    fn too_deep(&mut self, span: Span) {
+        let message = format!("types are nested more than {MAX_DEPTH} deep here");
+        self.report(Code::VariableTooLarge, span, message, |d| d.help("declare a flatter type"));
+    }
+
     fn enumeration(&mut self, name: Option<&str>, values: &[Name]) -> Option<(Shape, Value)> {
-        for (i, value) in values.iter().enumerate() {
-            if let Some(first) = values[..i].iter().find(|first| first.key() == value.key()) {
+        let mut known: BTreeMap<String, Span> = BTreeMap::new();
+        for value in values {
+            if let Some(&first) = known.get(&value.key()) {
                 let message = format!("the value `{}` is named twice", value.text);
-                let first = first.span;
                 self.report(Code::NameDeclaredTwice, value.span, message, |d| d.also(first, "first named here"));
+            } else {
+                known.insert(value.key(), value.span);
             }
+        }
+        if let Some(first) = values.get(MAX_ELEMENTS) {
+            let message = format!("this enumeration has more than {MAX_ELEMENTS} values");
+            self.report(Code::VariableTooLarge, first.span, message, |d| d.here("one too many"));
+            return None;
         }
         let values: Vec<String> = values.iter().map(|value| value.text.clone()).collect();
         let name = name.map_or_else(|| format!("({})", values.join(", ")), str::to_owned);
@@ -211,6 +227,10 @@ impl<'a> Declare<'a> {
             });
             return None;
         }
+        if self.open.len() == MAX_DEPTH {
+            self.too_deep(name.span);
+            return None;
+        }
         self.open.push(key.clone());
         let resolved = self.declaration(declaration);
         self.open.pop();
@@ -219,17 +239,14 @@ impl<'a> Declare<'a> {
     }
 
     fn declaration(&mut self, declaration: &TypeDeclaration) -> Option<(Shape, Value)> {
-        let nothing = Symbols::default();
-        let none = Scope { own: &nothing, globals: &nothing };
+        let none = Constants::none();
         let (mut shape, default) = match declaration.spec.as_ref()? {
             TypeSpec::Enumeration(values) => self.enumeration(Some(&declaration.name.text), values)?,
-            TypeSpec::Structure { members, .. } => {
-                self.structure((&declaration.name.text, declaration.name.span), members, &none)?
-            }
-            other => self.shape(other, &none)?,
+            TypeSpec::Structure { members, span } => self.structure(&declaration.name.text, members, *span, none)?,
+            other => self.shape(other, none)?,
         };
         let value = match &declaration.initial {
-            Some(initial) => self.value(initial, &shape, &none)?,
+            Some(initial) => self.value(initial, &shape, none)?,
             None => default,
         };
         if let (Shape::Scalar(scalar), Value::Scalar(pattern)) = (&mut shape, &value) {
@@ -270,11 +287,11 @@ impl<'a> Declare<'a> {
     }
 
     /// The numbers of a range, which is not empty.
-    fn range(&mut self, range: &Range, constants: &Scope<'_>) -> Option<(i128, i128)> {
+    fn range(&mut self, range: &Range, constants: Constants<'_>) -> Option<(i128, i128)> {
         let mut end = |bound: &Name| {
             let number = match Literal::read(&bound.text) {
                 Some(Literal::Integer(number) | Literal::Typed(_, number)) => Some(number),
-                _ => constants.find(&bound.text).and_then(constant),
+                _ => constants.number(&bound.text).map(|(number, _)| number),
             };
             if number.is_none() {
                 let message = format!("`{}` is no number that is known here", bound.text);
@@ -296,141 +313,12 @@ impl<'a> Declare<'a> {
         }
         Some((lower, upper))
     }
-
-    /// A value written for a shape. `None` has been reported.
-    pub fn value(&mut self, initial: &Initial, shape: &Shape, constants: &Scope<'_>) -> Option<Value> {
-        let unfit = |what: &str| {
-            let message = format!("{what} is no value of type `{shape}`");
-            Diagnostic::new(Code::InitialValueUnfit, initial.span, message)
-        };
-        match (&initial.kind, shape) {
-            (InitialKind::Constant(constant), Shape::Scalar(scalar)) => match number(constant, scalar) {
-                Ok(number) => Some(Value::Scalar(scalar.ty.pattern(number))),
-                Err(why) => {
-                    let message = format!("`{}` {why}", constant.text);
-                    let diagnostic = Diagnostic::new(Code::InitialValueUnfit, initial.span, message);
-                    self.diagnostics.push(match wider(constant, scalar) {
-                        _ if scalar.ty.is_bool() => diagnostic.help("write `TRUE` or `FALSE`"),
-                        Some(ty) => diagnostic.help(format!("the type `{ty}` has it")),
-                        None if scalar.ty == Type::TIME && matches!(constant.literal, Some(Literal::Integer(_))) => {
-                            diagnostic.help(format!("write a time, like `T#{}ms`", constant.text))
-                        }
-                        None => diagnostic,
-                    });
-                    None
-                }
-            },
-            (InitialKind::Name(path), Shape::Scalar(scalar)) => {
-                let name = path.to_string();
-                let value = scalar.enumeration.as_ref().and_then(|values| values.find(&name)).map(|n| n as u64);
-                let named = || {
-                    let symbol = constants.find(&name)?;
-                    let same = symbol.shape.as_ref()?.scalar()?.ty == scalar.ty;
-                    constant(symbol).filter(|&n| same && scalar.range.is_none_or(|(l, u)| (l..=u).contains(&n)))
-                };
-                let value = value.or_else(|| named().map(|number| scalar.ty.pattern(number)));
-                if value.is_none() {
-                    self.diagnostics.push(unfit(&format!("`{name}`")).help(match scalar.ty.is_bool() {
-                        true => "write `TRUE` or `FALSE`, or the name of a constant declared before",
-                        false => "write a literal, or the name of a constant declared before",
-                    }));
-                }
-                value.map(Value::Scalar)
-            }
-            (InitialKind::List(items), Shape::Array { ranges, of }) => {
-                let mut parts = Vec::new();
-                let mut at: usize = 0;
-                for (times, item) in items {
-                    let times = usize::try_from(*times).unwrap_or(usize::MAX);
-                    if at.saturating_add(times) > elements(ranges) {
-                        let message =
-                            format!("there are more values than the {} elements of the array", elements(ranges));
-                        self.report(Code::InitialValueUnfit, item.span, message, |d| d);
-                        return None;
-                    }
-                    let is_default = matches!(&item.kind, InitialKind::List(inner) if inner.is_empty());
-                    let value = if is_default { Value::Default } else { self.value(item, of, constants)? };
-                    parts.extend((at..at + times).map(|position| (position, value.clone())));
-                    at += times;
-                }
-                Some(Value::Parts(parts))
-            }
-            (InitialKind::Structure(given), Shape::Structure(structure)) => {
-                let mut parts = Vec::new();
-                for (name, value) in given {
-                    let found =
-                        structure.members.iter().position(|member| member.name.eq_ignore_ascii_case(&name.text));
-                    let Some(position) = found else {
-                        let message = format!("`{}` has no member `{}`", structure.name, name.text);
-                        let names: Vec<&str> = structure.members.iter().map(|member| member.name.as_str()).collect();
-                        self.diagnostics
-                            .push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
-                        return None;
-                    };
-                    parts.push((position, self.value(value, &structure.members[position].shape, constants)?));
-                }
-                Some(Value::Parts(parts))
-            }
-            (InitialKind::Structure(given), Shape::Instance(id)) => {
-                let Some(known) = &self.known else { return Some(Value::Default) };
-                let symbols = known[id.0].clone();
-                let mut parts = Vec::new();
-                for (name, value) in given {
-                    parts.push(self.input(name, value, &symbols, constants)?);
-                }
-                Some(Value::Parts(parts))
-            }
-            (InitialKind::Constant(constant), _) => {
-                let diagnostic = unfit(&format!("`{}`", constant.text));
-                self.diagnostics.push(diagnostic.help("write `[1, 2, 3]` for an array, `(a := 1)` for a structure"));
-                None
-            }
-            _ => {
-                self.diagnostics.push(unfit("this"));
-                None
-            }
-        }
-    }
-}
-
-impl Declare<'_> {
-    /// The value that an instance's declaration gives one of its variables.
-    fn input(&mut self, name: &Name, value: &Initial, symbols: &Symbols, scope: &Scope<'_>) -> Option<(usize, Value)> {
-        let is_seen = |symbol: &Symbol| matches!(symbol.section, Section::Input | Section::Output);
-        let Some((position, symbol)) = symbols.find(&name.text).filter(|(_, symbol)| is_seen(symbol)) else {
-            let message = format!("the function block has no input or output `{}`", name.text);
-            let names = symbols.list().iter().filter(|symbol| is_seen(symbol)).map(|symbol| symbol.name.as_str());
-            self.diagnostics.push(Diagnostic::new(Code::MemberUnknown, name.span, message).suggest(&name.text, names));
-            return None;
-        };
-        Some((position, self.value(value, symbol.shape.as_ref()?, scope)?))
-    }
-}
-
-/// The number of a constant's value, if it is known.
-fn constant(symbol: &Symbol) -> Option<i128> {
-    let scalar = symbol.shape.as_ref()?.scalar()?;
-    match symbol.initial {
-        Value::Scalar(pattern) if symbol.section == Section::Constant => Some(scalar.ty.number(pattern)),
-        _ => None,
-    }
 }
 
 fn repeated(value: &Value, times: usize) -> Value {
     match value {
         Value::Default => Value::Default,
-        given => Value::Parts((0..times).map(|position| (position, given.clone())).collect()),
-    }
-}
-
-/// How many elementary values a shape has; an instance counts as one.
-fn leaves(shape: &Shape) -> usize {
-    match shape {
-        Shape::Scalar(_) | Shape::Instance(_) => 1,
-        Shape::Array { ranges, of } => elements(ranges).saturating_mul(leaves(of)),
-        Shape::Structure(structure) => {
-            structure.members.iter().fold(0, |sum, member| sum.saturating_add(leaves(&member.shape)))
-        }
+        given => Value::Parts([(0..times, given.clone())].into()),
     }
 }
 

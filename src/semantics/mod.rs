@@ -10,6 +10,7 @@ mod effect;
 mod extent;
 mod function;
 mod inference;
+mod initial;
 mod interval;
 mod library;
 mod needed;

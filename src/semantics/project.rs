@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::declare::{Declare, Scope, enumerator};
+use super::declare::{Declare, enumerator};
+use super::initial::Constants;
 use super::shape::{Enumeration, PouId, Scalar, Shape, Value};
 use super::symbols::{Area, Section, Symbol, Symbols, address};
 use super::types::{Kind, Type};
@@ -221,10 +222,10 @@ fn addresses(unit: &Unit, globals: &mut Symbols) {
     for pou in &unit.pous {
         let declared = pou.blocks.iter().flat_map(|block| &block.declarations).filter_map(|d| d.location.as_ref());
         let declared: BTreeSet<String> = declared.map(|location| address(&location.text)).collect();
-        let used = uses::operands(&pou.body);
-        paths.extend(used.into_iter().filter(|path| !declared.contains(&address(&path.root.text))));
+        let used = uses::named(&pou.body).into_iter().filter(|path| path.root.text.starts_with('%'));
+        paths.extend(used.filter(|path| !declared.contains(&address(&path.root.text))));
     }
-    for path in paths.into_iter().filter(|path| path.root.text.starts_with('%')) {
+    for path in paths {
         let Some((area, ty)) = read_address(&path.root.text) else { continue };
         if globals.find(&path.root.text).is_some() {
             continue;
@@ -302,8 +303,7 @@ fn result(pou: &Pou, symbols: &mut Symbols, declare: &mut Declare<'_>) {
         }
         Some(result) => {
             let spec = crate::syntax::ast::TypeSpec::Named(result.clone());
-            let nothing = Symbols::default();
-            match declare.shape(&spec, &Scope { own: &nothing, globals: &nothing }).map(|(shape, _)| shape) {
+            match declare.shape(&spec, Constants::none()).map(|(shape, _)| shape) {
                 Some(shape) if shape.scalar().is_none() => {
                     let message = format!("a function cannot return {shape}");
                     declare
@@ -363,10 +363,10 @@ fn declaration_of(
     declare: &mut Declare<'_>,
     may_locate: bool,
 ) {
-    let scope = Scope { own: symbols, globals };
-    let shaped = declaration.spec.as_ref().and_then(|spec| declare.shape(spec, &scope));
+    let constants = Constants::of(symbols, globals);
+    let shaped = declaration.spec.as_ref().and_then(|spec| declare.shape(spec, constants));
     let value = match (&declaration.initial, &shaped) {
-        (Some(initial), Some((shape, _))) => declare.value(initial, shape, &scope),
+        (Some(initial), Some((shape, _))) => declare.value(initial, shape, constants),
         (_, Some((_, default))) => Some(default.clone()),
         (_, None) => None,
     };

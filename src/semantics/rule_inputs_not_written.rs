@@ -49,4 +49,12 @@ mod tests {
         let text = program("LD i\nST j\nS i\nAND( m\nSTN j\n)\nR m\nST q");
         assert_eq!(lines(Code::InputWritten, &text), [3, 4, 6]);
     }
+
+    #[test]
+    fn an_input_is_not_handed_over_to_be_written() {
+        let block = "FUNCTION_BLOCK b VAR_IN_OUT w : BOOL; END_VAR\nLD TRUE\nST w\nEND_FUNCTION_BLOCK";
+        let head = "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR c : b; m : BOOL; END_VAR";
+        let text = format!("{block}\n{head}\nCAL c(w := i)\nCAL c(w := m)\nEND_PROGRAM");
+        assert_eq!(lines(Code::InputWritten, &text), [6]);
+    }
 }

@@ -1,6 +1,7 @@
 //! The types of variables: elementary ones, what is made of them, and function blocks.
 
 use std::fmt;
+use std::ops::Range;
 use std::rc::Rc;
 
 use super::types::Type;
@@ -34,6 +35,20 @@ pub struct Structure {
     pub name: String,
     /// In the order of declaration.
     pub members: Vec<Member>,
+    /// How many elementary values it has, itself counted as one: a structure of nothing is something to walk through.
+    pub(super) leaves: usize,
+    /// How deeply its members are nested.
+    pub(super) depth: usize,
+}
+
+impl Structure {
+    /// A structure of these members.
+    #[must_use]
+    pub fn new(name: String, members: Vec<Member>) -> Self {
+        let leaves = members.iter().fold(1_usize, |sum, member| sum.saturating_add(member.shape.leaves()));
+        let depth = members.iter().map(|member| member.shape.depth()).max().unwrap_or(0) + 1;
+        Self { name, members, leaves, depth }
+    }
 }
 
 /// A member of a structure.
@@ -85,7 +100,7 @@ pub enum Value {
     /// The pattern of an elementary value.
     Scalar(u64),
     /// Values of the members or elements with these positions; the others have what their types say.
-    Parts(Vec<(usize, Value)>),
+    Parts(Rc<[(Range<usize>, Value)]>),
 }
 
 impl Scalar {
@@ -103,6 +118,26 @@ impl Shape {
         match self {
             Self::Scalar(scalar) => Some(scalar),
             _ => None,
+        }
+    }
+
+    /// How many elementary values it has, an instance counted as one.
+    #[must_use]
+    pub fn leaves(&self) -> usize {
+        match self {
+            Self::Scalar(_) | Self::Instance(_) => 1,
+            Self::Array { ranges, of } => elements(ranges).saturating_mul(of.leaves()),
+            Self::Structure(structure) => structure.leaves,
+        }
+    }
+
+    /// How deeply arrays and structures are nested in it.
+    #[must_use]
+    pub fn depth(&self) -> usize {
+        match self {
+            Self::Scalar(_) | Self::Instance(_) => 0,
+            Self::Array { of, .. } => of.depth() + 1,
+            Self::Structure(structure) => structure.depth,
         }
     }
 

@@ -5,6 +5,7 @@ pub mod ast;
 mod comments;
 mod consume;
 mod expected;
+mod nesting;
 mod parse;
 mod plcopen;
 mod print;

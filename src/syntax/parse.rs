@@ -4,7 +4,7 @@ use pest::Parser;
 use pest_derive::Parser;
 
 use super::ast::Unit;
-use super::{comments, consume, expected, plcopen};
+use super::{comments, consume, expected, nesting, plcopen};
 use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::source::{Source, Span};
 
@@ -23,6 +23,9 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     if let Some(unclosed) = unclosed {
         // What an open comment hides is missing everywhere: no more than its opening is worth telling.
         return (Unit::default(), vec![unclosed]);
+    }
+    if let Some(too_deep) = nesting::too_deep(&text) {
+        return (Unit::default(), vec![too_deep]);
     }
     let mut diagnostics = Vec::new();
     let unit = match IlParser::parse(Rule::unit, &text) {

@@ -2,6 +2,7 @@
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod files;
+mod nesting;
 mod plants;
 mod programs;
 mod requirements;

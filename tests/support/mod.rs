@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test uses a part")]
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
+pub mod agreement;
 pub mod assembler;
 pub mod document;
 pub mod naive_ctl;
@@ -10,6 +11,10 @@ pub mod random_flat;
 pub mod random_formula;
 pub mod random_net;
 pub mod random_program;
+pub mod random_wide_body;
+pub mod random_wide_program;
+pub mod random_wide_value;
+pub mod reference;
 pub mod reports;
 pub mod systems;
 pub mod token_game;

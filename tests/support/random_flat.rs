@@ -39,11 +39,11 @@ impl<'a> Choices<'a> {
         self.0.next().map_or(0, |&number| number as usize % choices)
     }
 
-    fn of<T: Copy>(&mut self, list: &[T]) -> T {
+    pub fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.pick(list.len())]
     }
 
-    fn flag(&mut self) -> bool {
+    pub fn flag(&mut self) -> bool {
         self.pick(2) == 1
     }
 
@@ -59,7 +59,7 @@ impl<'a> Choices<'a> {
     }
 
     /// A type, mostly a narrow one.
-    fn ty(&mut self) -> Type {
+    pub fn ty(&mut self) -> Type {
         let wide = self.pick(12);
         let all: Vec<Type> = Type::ALL.iter().map(|&(_, ty)| ty).collect();
         let fits = |ty: &&Type| match wide {

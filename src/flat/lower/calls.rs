@@ -27,6 +27,7 @@ impl<'p> Lowering<'p> {
         let result = pou.variables.iter().position(|variable| variable.section == Section::Result);
         let callee_span = if pou.is_library { Some(span) } else { frame.span };
         // What is in parentheses may call the same function, so it is computed before anything is handed over.
+        let en = call.enable.en.as_ref().and_then(|feed| self.ready(frame, feed, depth));
         let ready: Vec<Option<VarId>> = call.inputs.iter().map(|(_, feed)| self.ready(frame, feed, depth)).collect();
         if let Some((input, ty)) = call.result_to {
             let ty = frame.pou.types[ty.0];
@@ -37,7 +38,7 @@ impl<'p> Lowering<'p> {
             let view = Frame { pou, variables: variables.clone(), depth, exit: done, span: callee_span };
             result.into_iter().for_each(|position| self.initialise(&view, position, span));
         }
-        self.enable(frame, &call.enable, skip, depth, span);
+        self.enable(frame, &call.enable, en, (skip, depth), span);
         for ((input, feed), ready) in call.inputs.iter().zip(&ready) {
             let ty = frame.pou.types[feed.ty.0];
             match ready {
@@ -46,7 +47,7 @@ impl<'p> Lowering<'p> {
             }
             self.hand_over(&pou.variables[*input].shape, variables[*input], ty, feed.span);
         }
-        ready.into_iter().flatten().for_each(|buffer| self.release(buffer));
+        ready.into_iter().chain([en]).flatten().for_each(|buffer| self.release(buffer));
         let mut held = Vec::new();
         for (position, place) in &call.in_outs {
             let address = self.address(frame, place, None, span);
@@ -110,8 +111,15 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// `EN` and `ENO`: goes to `skip` if the call is not to be executed.
-    pub fn enable(&mut self, frame: &Frame<'p>, enable: &Enable, skip: super::Label, depth: usize, span: Span) {
+    /// `EN` and `ENO`: goes to `skip` if the call is not to be executed. The value of `EN` may be in a buffer already.
+    pub fn enable(
+        &mut self,
+        frame: &Frame<'p>,
+        enable: &Enable,
+        ready: Option<VarId>,
+        (skip, depth): (super::Label, usize),
+        span: Span,
+    ) {
         match (&enable.en, &enable.eno) {
             (None, None) => {}
             (None, Some((negated, place))) => {
@@ -119,7 +127,10 @@ impl<'p> Lowering<'p> {
                 self.store_in(frame, Type::BOOL, *negated, place, span);
             }
             (Some(en), eno) => {
-                self.load_feed(frame, en, depth);
+                match ready {
+                    Some(buffer) => self.load_variable(Type::BOOL, buffer, frame.span.unwrap_or(en.span)),
+                    None => self.load_feed(frame, en, depth),
+                }
                 if let Some((negated, place)) = eno {
                     self.store_in(frame, Type::BOOL, *negated, place, span);
                 }

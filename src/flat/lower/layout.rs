@@ -154,12 +154,9 @@ impl Lowering<'_> {
 }
 
 fn variable(leaf: &Leaf, scalar: &Scalar, initial: &Value) -> Variable {
-    let bits = match &scalar.enumeration {
-        Some(enumeration) => bits_for(enumeration.values.len().saturating_sub(1) as u64),
-        None => scalar.ty.width,
-    };
-    let bits = if leaf.role == Role::Input { scalar.ty.width } else { bits };
     let initial = pattern(scalar, initial);
+    // An enumeration has few values, but an input may be none of them, and be copied. What is not is narrowed.
+    let bits = scalar.ty.width;
     Variable { name: leaf.name.clone(), role: leaf.role, ty: scalar.ty, bits, initial, span: Some(leaf.span) }
 }
 
@@ -177,7 +174,9 @@ fn pattern(scalar: &Scalar, initial: &Value) -> u64 {
 
 fn parts(value: &Value) -> BTreeMap<usize, &Value> {
     match value {
-        Value::Parts(parts) => parts.iter().map(|(position, value)| (*position, value)).collect(),
+        Value::Parts(parts) => {
+            parts.iter().flat_map(|(range, value)| range.clone().map(move |position| (position, value))).collect()
+        }
         _ => BTreeMap::new(),
     }
 }

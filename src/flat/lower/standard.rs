@@ -16,7 +16,7 @@ impl<'p> Lowering<'p> {
     pub fn standard(&mut self, frame: &Frame<'p>, standard: &Standard, depth: usize, span: Span) {
         let ty = frame.pou.types[standard.ty.0];
         let (skip, done) = (self.label(), self.label());
-        self.enable(frame, &standard.enable, skip, depth, span);
+        self.enable(frame, &standard.enable, None, (skip, depth), span);
         let Some((first, rest)) = standard.arguments.split_first() else { return };
         let first_ty = frame.pou.types[first.ty.0];
         // Nothing may disturb the current result once the first argument is in it.

@@ -1,0 +1,212 @@
+//! Random texts over the whole language: the front end accepts them, printing and reading them again changes nothing, and
+//! after every scan the net, the interpreter of flat code and an interpreter of the program as it is written
+//! (`support/reference.rs`) agree on every variable and every hazard.
+//!
+//! `PETRIL_PROGRAMS=100000 PROPTEST_RNG_SEED=1` for a long run that can be repeated.
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod support;
+
+use petril::diagnostic::any_error;
+use petril::flat::{FlatProgram, Hazard, Instruction, flatten};
+use petril::interpret::Machine;
+use petril::semantics::{self, Program, Role, Section, VarId};
+use petril::source::Source;
+use petril::syntax;
+use petril::translate::{Plant, System};
+use proptest::prelude::*;
+use support::agreement::{Inputs, agree, programs};
+use support::random_flat::Choices;
+use support::random_wide_program::text;
+use support::reference::Reference;
+use support::token_game::Game;
+
+/// A scan is not followed any longer.
+const STEPS: usize = 20_000;
+
+/// The checked program, and the text as it is printed.
+fn read(text: &str) -> (Program, String) {
+    let (unit, errors) = syntax::parse(&Source::new("program", text));
+    let (program, more) = semantics::check(&unit, !any_error(&errors));
+    (program.unwrap_or_else(|| panic!("{text}\n{errors:#?}\n{more:#?}")), unit.to_string())
+}
+
+fn code(program: &FlatProgram) -> Vec<Instruction> {
+    program.code.iter().map(|line| line.instruction).collect()
+}
+
+/// The interpreter of flat code and that of the program as it is written do the same.
+fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) -> Result<Vec<Hazard>, TestCaseError> {
+    let mut reference = Reference::new(program);
+    let mut machine = Machine::new(flat);
+    let entry = &program.pous[program.entry.0].variables;
+    let globals = program.globals.iter().enumerate().map(|(i, variable)| (entry.len() + i, variable));
+    let is_input = |variable: &semantics::Variable| {
+        variable.section == Section::Input || variable.area == Some(semantics::Area::Input)
+    };
+    let inputs: Vec<usize> =
+        entry.iter().enumerate().chain(globals).filter(|(_, v)| is_input(v)).map(|(i, _)| i).collect();
+    let mut met = Vec::new();
+    for scan in scans {
+        for (&(input, value), &position) in scan.iter().zip(&inputs) {
+            machine.set(input, value);
+            reference.set(position, value);
+        }
+        machine.scan().map_err(|fault| TestCaseError::fail(format!("{fault:?}\n{text}")))?;
+        reference.scan(STEPS).map_err(|fault| TestCaseError::fail(format!("{fault:?}\n{text}")))?;
+        let declared: Vec<VarId> = flat.declared().collect();
+        let names: Vec<&str> = declared.iter().map(|&id| flat.variable(id).name.as_str()).collect();
+        let flat_values: Vec<u64> = declared.iter().map(|&id| machine.value(id)).collect();
+        let values = reference.values();
+        prop_assert_eq!(values.len(), flat_values.len());
+        let differ = (0..values.len()).find(|&i| values[i] != flat_values[i]);
+        let told = differ.map(|i| format!("{}: {} as written, {} in flat code", names[i], values[i], flat_values[i]));
+        prop_assert!(told.is_none(), "{}\n{:?}\n{}", told.unwrap_or_default(), scan, text);
+        // The order of some operands is that of flat code.
+        let mut hazards: Vec<Hazard> = machine.hazards().iter().map(|&(_, hazard)| hazard).collect();
+        let count = |hazards: &[Hazard]| Hazard::ALL.map(|kind| hazards.iter().filter(|&&met| met == kind).count());
+        prop_assert_eq!(count(&reference.hazards), count(&hazards), "{:?}\n{}", scan, text);
+        met.append(&mut hazards);
+    }
+    Ok(met)
+}
+
+fn inputs(flat: &FlatProgram, choices: &mut Choices<'_>) -> Vec<Inputs> {
+    let inputs: Vec<VarId> = flat.with_role(Role::Input).collect();
+    let mut scan = || inputs.iter().map(|&id| (id, choices.pattern(flat.variable(id).ty))).collect();
+    (0..3).map(|_| scan()).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(programs(300)))]
+
+    #[test]
+    fn after_every_scan(numbers in proptest::collection::vec(any::<u32>(), 0..400), seed in proptest::collection::vec(any::<u32>(), 24)) {
+        let text = text(&mut Choices::new(&numbers));
+        let (program, printed) = read(&text);
+        let flat = flatten(&program);
+        let (again, unchanged) = read(&printed);
+        prop_assert_eq!(&unchanged, &printed, "{}", text);
+        prop_assert_eq!(code(&flatten(&again)), code(&flat), "{}\n{}", text, printed);
+        let scans = inputs(&flat, &mut Choices::new(&seed));
+        refer(&program, &flat, &scans, &text)?;
+        let mut game = Game::new(System::new(flat.clone(), Plant::default()));
+        let met = agree(&mut game, &flat, &scans, STEPS).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
+        prop_assert!(met.ended, "{}", text);
+    }
+}
+
+/// The random programs come to everything there is: otherwise their agreement says little.
+#[test]
+fn random_programs_say_everything() {
+    let mut generator = 7_u64;
+    let mut next = || {
+        // Numerical Recipes.
+        generator = generator.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (generator >> 32) as u32
+    };
+    let (mut all, mut hazards) = (String::new(), Vec::new());
+    for _ in 0..400 {
+        let numbers: Vec<u32> = (0..400).map(|_| next()).collect();
+        let text = text(&mut Choices::new(&numbers));
+        let (program, _) = read(&text);
+        let flat = flatten(&program);
+        let mut machine = Machine::new(&flat);
+        machine.scan().unwrap();
+        hazards.extend(machine.hazards().iter().map(|&(_, hazard)| hazard));
+        all += &text;
+    }
+    for hazard in Hazard::ALL {
+        assert!(hazards.contains(&hazard), "{hazard}");
+    }
+    let words = [
+        "LD ",
+        "LDN ",
+        "ST ",
+        "STN ",
+        "S ",
+        "R ",
+        "NOT\n",
+        "AND ",
+        "ANDN ",
+        "ORN(",
+        "XORN ",
+        "& ",
+        "&N ",
+        "ADD ",
+        "SUB(",
+        "MUL ",
+        "DIV ",
+        "MOD ",
+        "GT ",
+        "GE ",
+        "EQ(",
+        "NE ",
+        "LE ",
+        "LT ",
+        "SHL ",
+        "SHR ",
+        "ROL ",
+        "ROR ",
+        "_TO_",
+        "MIN ",
+        "MAX(",
+        "LIMIT ",
+        "LIMIT(",
+        "SEL ",
+        "SEL(",
+        "MUX(",
+        "MOVE(",
+        "ABS\n",
+        "JMPC ",
+        "JMPCN ",
+        "RETC\n",
+        "RETCN\n",
+        "CAL ",
+        "CALC ",
+        "CALCN ",
+        "IN ",
+        "CLK ",
+        "CU ",
+        "CD ",
+        "PV ",
+        "PT ",
+        "S1 ",
+        "R1 ",
+        "EN := ",
+        "ENO => ",
+        "NOT ENO => ",
+        ":= (\n",
+        "func0(",
+        "func0 ",
+        "of_block0 : ",
+        "w := ",
+        "grid[",
+        "row[",
+        "pairs[",
+        "pair.",
+        "Colour#",
+        "level",
+        "g0",
+        "T#",
+        "TON",
+        "TOF",
+        "TP;",
+        "CTU;",
+        "CTD;",
+        "CTUD",
+        "SR;",
+        "RS;",
+        "R_TRIG",
+        "F_TRIG",
+        "%IX0.3",
+        "%QB4",
+        "VAR_TEMP",
+        "VAR_IN_OUT",
+        "VAR CONSTANT",
+        "ADD(IN1",
+        "AND(IN1",
+    ];
+    let missing: Vec<&str> = words.into_iter().filter(|word| all.matches(word).count() < 3).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
