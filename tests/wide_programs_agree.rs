@@ -73,7 +73,15 @@ fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) ->
 
 fn inputs(flat: &FlatProgram, choices: &mut Choices<'_>) -> Vec<Inputs> {
     let inputs: Vec<VarId> = flat.with_role(Role::Input).collect();
-    let mut scan = || inputs.iter().map(|&id| (id, choices.pattern(flat.variable(id).ty))).collect();
+    let mut scan = || {
+        let value = |&id: &VarId| {
+            let (ty, (least, greatest)) = (flat.variable(id).ty, flat.range(id));
+            let number = ty.number(choices.pattern(ty));
+            let allowed = least + (number - least).rem_euclid(greatest - least + 1);
+            (id, ty.pattern(allowed))
+        };
+        inputs.iter().map(value).collect()
+    };
     (0..3).map(|_| scan()).collect()
 }
 

@@ -7,7 +7,7 @@ use super::project::Project;
 use super::shape::{PouId, Shape, elements};
 use super::symbols::Section;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::ast::{Operand, Operation, with_nested};
+use crate::syntax::ast::{Operand, Operation, PouKind, with_nested};
 
 /// A program may have as many instructions, and as many values, as this.
 const MAX: usize = 1 << 20;
@@ -33,17 +33,30 @@ pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic
         found.push(Diagnostic::new(Code::ProgramTooLarge, pou.name.span, message).help(help));
         return;
     }
-    let large =
-        project.globals.list().iter().filter_map(|symbol| Some((symbol, of_shape(symbol.shape.as_ref()?, &known))));
-    found.extend(large.filter(|&(_, values)| values > MAX).map(|(symbol, _)| {
-        let message = format!("`{}` has more than {MAX} values", symbol.name);
-        Diagnostic::new(Code::ProgramTooLarge, symbol.span, message)
-    }));
+    // Functions have one set of variables for all their calls.
+    let sets = needed
+        .iter()
+        .enumerate()
+        .filter(|&(i, &id)| i + 1 == needed.len() || project.pou(id).kind == PouKind::Function);
+    let shapes = project.globals.list().iter().filter_map(|symbol| symbol.shape.as_ref());
+    let values = sets.map(|(_, id)| known.get(id).map_or(0, |(_, values)| *values));
+    let values = values.chain(shapes.map(|shape| of_shape(shape, &known))).fold(0, usize::saturating_add);
+    if let (Some(&entry), true) = (needed.last(), values > MAX) {
+        let pou = project.pou(entry);
+        let message = format!("`{}` has {values} values with its functions and global variables", pou.name.text);
+        let help = format!("every value becomes places of the net; a program may have {MAX} values");
+        found.push(Diagnostic::new(Code::ProgramTooLarge, pou.name.span, message).help(help));
+    }
 }
 
 fn instructions(project: &Project<'_>, id: PouId, known: &BTreeMap<PouId, Extent>) -> usize {
     let context = project.context(id);
-    let mut sum: usize = 0;
+    // Variables that begin anew with every call are given their values there.
+    let begins_anew = |section| section == Section::Temp || context.pou.kind == PouKind::Function;
+    let anew = context.symbols.list().iter().filter(|symbol| begins_anew(symbol.section));
+    let mut sum = anew
+        .filter_map(|symbol| symbol.shape.as_ref())
+        .fold(0, |sum: usize, shape| sum.saturating_add(of_shape(shape, known)));
     for (instruction, _) in with_nested(&context.pou.body) {
         let instance = match &instruction.operation {
             Some(Operation::Call { callee, .. }) => Some(callee),

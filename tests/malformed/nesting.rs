@@ -80,7 +80,7 @@ fn initial_values_take_no_more_memory_than_their_text() {
     let one = |i: usize| format!("g{i} : ARRAY [0..65535] OF ARRAY [0..0] OF INT := [65536([1])];\n");
     let many: String = (0..5000).map(one).collect();
     let declarations = format!("VAR_GLOBAL\n{many}END_VAR");
-    is_refused(&declarations, "5003:9", &["E0330", "more than 500000 variables"]);
+    is_refused(&declarations, "5003:9", &["E0330", "values with its functions and global variables"]);
 }
 
 /// Every declaration may name the constants before it.
