@@ -1,6 +1,6 @@
 //! From syntax tree to checked program: names resolved, values typed, every static rule applied.
 //!
-//! Declarations become shapes ([`declare`]), names symbols ([`project`]), instructions typed statements ([`typing`]); what
+//! Declarations become shapes (`declare`), names symbols (`project`), instructions typed statements (`typing`); what
 //! these cannot read they report. The rules beyond that are the files `rule_….rs`, one sentence each.
 
 mod constant;
