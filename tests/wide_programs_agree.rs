@@ -37,7 +37,7 @@ fn code(program: &FlatProgram) -> Vec<Instruction> {
 
 /// The interpreter of flat code and that of the program as it is written do the same.
 fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) -> Result<Vec<Hazard>, TestCaseError> {
-    let mut reference = Reference::new(program);
+    let mut reference = Reference::new(program, flat.presets_vary);
     let mut machine = Machine::new(flat);
     let entry = &program.pous[program.entry.0].variables;
     let globals = program.globals.iter().enumerate().map(|(i, variable)| (entry.len() + i, variable));
@@ -59,7 +59,9 @@ fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) ->
         let flat_values: Vec<u64> = declared.iter().map(|&id| machine.value(id)).collect();
         let values = reference.values();
         prop_assert_eq!(values.len(), flat_values.len());
-        let differ = (0..values.len()).find(|&i| values[i] != flat_values[i]);
+        // How far a clock goes beyond its preset time is its own business.
+        let is_clock = |name: &str| name.ends_with(".CLOCK");
+        let differ = (0..values.len()).find(|&i| values[i] != flat_values[i] && !is_clock(names[i]));
         let told = differ.map(|i| format!("{}: {} as written, {} in flat code", names[i], values[i], flat_values[i]));
         prop_assert!(told.is_none(), "{}\n{:?}\n{}", told.unwrap_or_default(), scan, text);
         // The order of some operands is that of flat code.
@@ -71,18 +73,16 @@ fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) ->
     Ok(met)
 }
 
-fn inputs(flat: &FlatProgram, choices: &mut Choices<'_>) -> Vec<Inputs> {
-    let inputs: Vec<VarId> = flat.with_role(Role::Input).collect();
-    let mut scan = || {
-        let value = |&id: &VarId| {
-            let (ty, (least, greatest)) = (flat.variable(id).ty, flat.range(id));
-            let number = ty.number(choices.pattern(ty));
-            let allowed = least + (number - least).rem_euclid(greatest - least + 1);
-            (id, ty.pattern(allowed))
-        };
-        inputs.iter().map(value).collect()
+/// Three scans with values that the inputs may have.
+fn inputs(system: &System, choices: &mut Choices<'_>) -> Vec<Inputs> {
+    let mut value = |id: VarId| {
+        let domain = system.domain(id);
+        let pattern = choices.pattern(domain.ty);
+        let is_allowed = domain.contains(domain.ty.number(pattern));
+        let others = usize::try_from(domain.size()).unwrap_or(usize::MAX);
+        if is_allowed { pattern } else { domain.patterns().nth(pattern as usize % others).unwrap() }
     };
-    (0..3).map(|_| scan()).collect()
+    (0..3).map(|_| system.program.with_role(Role::Input).map(|id| (id, value(id))).collect()).collect()
 }
 
 proptest! {
@@ -96,9 +96,10 @@ proptest! {
         let (again, unchanged) = read(&printed);
         prop_assert_eq!(&unchanged, &printed, "{}", text);
         prop_assert_eq!(code(&flatten(&again)), code(&flat), "{}\n{}", text, printed);
-        let scans = inputs(&flat, &mut Choices::new(&seed));
+        let system = System::new(flat.clone(), Plant::default());
+        let scans = inputs(&system, &mut Choices::new(&seed));
         refer(&program, &flat, &scans, &text)?;
-        let mut game = Game::new(System::new(flat.clone(), Plant::default()));
+        let mut game = Game::new(system);
         let met = agree(&mut game, &flat, &scans, STEPS).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
         prop_assert!(met.ended, "{}", text);
     }

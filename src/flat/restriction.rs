@@ -19,7 +19,7 @@ impl Restriction {
     #[must_use]
     pub fn of(scalar: &Scalar) -> Option<Self> {
         match (&scalar.enumeration, scalar.range) {
-            (Some(enumeration), _) => Some(Self::Enumeration(enumeration.values.clone().into())),
+            (Some(enumeration), _) => Some(Self::Enumeration(enumeration.values.clone())),
             (None, Some((lower, upper))) => Some(Self::Subrange(lower, upper)),
             (None, None) => None,
         }

@@ -190,7 +190,7 @@ impl<'a> Declare<'a> {
         let values: Vec<String> = values.iter().map(|value| value.text.clone()).collect();
         let name = name.map_or_else(|| format!("({})", values.join(", ")), str::to_owned);
         let width = if values.len() <= 1 << 8 { 8 } else { 16 };
-        let enumeration = Rc::new(Enumeration { name, values });
+        let enumeration = Rc::new(Enumeration { name, values: values.into() });
         self.enumerations.push(enumeration.clone());
         let ty = Type::new(Kind::Unsigned, width);
         let range = Some((0, enumeration.values.len() as i128 - 1));

@@ -102,7 +102,7 @@ impl<'a> Project<'a> {
 
     /// The names of the values of all enumerations.
     pub fn enumerator_names(&self) -> impl Iterator<Item = &str> {
-        self.enumerations.iter().flat_map(|enumeration| &enumeration.values).map(String::as_str)
+        self.enumerations.iter().flat_map(|enumeration| enumeration.values.iter()).map(String::as_str)
     }
 
     /// The variable a name stands for in a unit: its own, or a global one (as its position among these).

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::types::Type;
 
@@ -81,7 +82,7 @@ pub struct Enumeration {
     /// The name it was declared by; of one without a name, its values.
     pub name: String,
     /// The names of its values 0, 1, ….
-    pub values: Vec<String>,
+    pub values: Arc<[String]>,
 }
 
 impl Enumeration {

@@ -83,6 +83,15 @@ fn initial_values_take_no_more_memory_than_their_text() {
     is_refused(&declarations, "5003:9", &["E0330", "values with its functions and global variables"]);
 }
 
+/// Every element of an enumeration is one of the names, which are kept once.
+#[test]
+fn large_arrays_of_large_enumerations_are_read() {
+    let values: Vec<String> = (0..20_000).map(|i| format!("value_{i}")).collect();
+    let declarations =
+        format!("TYPE e : ({}); END_TYPE\nVAR_GLOBAL g : ARRAY [1..60000] OF e; END_VAR", values.join(", "));
+    is_accepted(&declarations, "LD g[1]\nST g[2]");
+}
+
 /// Every declaration may name the constants before it.
 #[test]
 fn thousands_of_declarations_behind_a_constant_are_read() {

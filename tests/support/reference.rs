@@ -43,6 +43,8 @@ pub struct Reference<'p> {
     pub hazards: Vec<Hazard>,
     /// How many instructions may still be executed in this scan.
     steps: usize,
+    /// Clocks stop at the preset time of their timer.
+    clocks_stop: bool,
 }
 
 /// The scan takes too long.
@@ -52,10 +54,11 @@ pub struct TooLong;
 type Done = Result<(), TooLong>;
 
 impl<'p> Reference<'p> {
-    pub fn new(program: &'p Program) -> Self {
+    /// Where preset times may be anything, clocks stop at them (`clocks_stop`); else they go on while their timers run.
+    pub fn new(program: &'p Program, clocks_stop: bool) -> Self {
         let scan_time = i128::from(program.interval.unwrap_or(20));
         let (memory, hazards) = (Vec::new(), Vec::new());
-        let mut new = Self { program, scan_time, memory, globals: 0, result: 0, hazards, steps: 0 };
+        let mut new = Self { program, scan_time, memory, globals: 0, result: 0, hazards, steps: 0, clocks_stop };
         let entry = &program.pous[program.entry.0];
         new.memory = entry.variables.iter().map(|variable| new.cell(&variable.shape, &variable.initial)).collect();
         new.globals = new.memory.len();
@@ -159,7 +162,7 @@ impl<'p> Reference<'p> {
         Location { variable, way: Vec::new() }
     }
 
-    /// The running clocks of timers advance, until they have reached their preset times.
+    /// The running clocks of timers advance.
     fn tick(&self, cell: &mut Cell, shape: &Shape) {
         let (Cell::Parts(cells), shape) = (cell, shape) else { return };
         match shape {
@@ -174,7 +177,7 @@ impl<'p> Reference<'p> {
                 if let (true, Some(clock), Some(running)) = (pou.is_library, find("CLOCK"), find("RUNNING")) {
                     let number = |position: usize| Type::TIME.number(one(&cells[position]));
                     let preset = find("PT").map_or(0, number);
-                    if one(&cells[running]) == 1 && number(clock) < preset {
+                    if one(&cells[running]) == 1 && (!self.clocks_stop || number(clock) < preset) {
                         cells[clock] = Cell::One(Type::TIME.pattern(number(clock) + self.scan_time));
                     }
                     return;
