@@ -39,7 +39,7 @@ fn code(program: &FlatProgram) -> Vec<Instruction> {
 fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) -> Result<Vec<Hazard>, TestCaseError> {
     let mut reference = Reference::new(program, flat.presets_vary);
     let mut machine = Machine::new(flat);
-    let entry = &program.pous[program.entry.0].variables;
+    let entry = &program.pous[&program.entry].variables;
     let globals = program.globals.iter().enumerate().map(|(i, variable)| (entry.len() + i, variable));
     let is_input = |variable: &semantics::Variable| {
         variable.section == Section::Input || variable.area == Some(semantics::Area::Input)

@@ -310,6 +310,18 @@ fn a_function_called_inside_a_parenthesis_leaves_its_callers_value_alone() {
 }
 
 #[test]
+fn a_function_called_only_inside_the_list_of_a_call_is_called() {
+    let text = "FUNCTION twice : INT\nVAR_INPUT n : INT; END_VAR\nLD n\nADD n\nST twice\nEND_FUNCTION\n\
+                FUNCTION_BLOCK keep\nVAR_INPUT v : INT; END_VAR VAR_OUTPUT w : INT; END_VAR\nLD v\nST w\nEND_FUNCTION_BLOCK\n\
+                PROGRAM p VAR_INPUT x, y : INT; END_VAR VAR k : keep; END_VAR\n\
+                CAL k(v := (\nLD x\ntwice\nADD( y\nMUL 2\n)\n))\nEND_PROGRAM";
+    let program = flat(text);
+    let mut run = Run::new(&program);
+    run.scan(&[("x", 3), ("y", 1)]);
+    assert_eq!(run.get("k.w"), 8);
+}
+
+#[test]
 fn an_in_out_variable_stands_for_one_element_until_its_call_ends() {
     let text = "FUNCTION_BLOCK f\nVAR_IN_OUT e : INT; END_VAR VAR_INPUT j : INT; END_VAR VAR b : ARRAY [0..3] OF INT; END_VAR\n\
                 LD e\nADD 1\nST e\nLD 100\nST b[j]\nLD e\nADD 1\nST e\nEND_FUNCTION_BLOCK\n\

@@ -118,7 +118,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     let needed = project.reachable(entry, &mut diagnostics);
     extent::check(&project, &needed, &mut diagnostics);
     diagnostics.extend(without_caller(&project, entry));
-    let mut pous: Vec<Pou> = project.pous.iter().enumerate().map(|(i, pou)| empty(&project, PouId(i), pou)).collect();
+    let mut pous = BTreeMap::new();
     for &id in &needed {
         let pou = project.pou(id);
         if let Some((language, span)) = &pou.foreign {
@@ -132,9 +132,16 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
             diagnostics.extend(typed.diagnostics);
             diagnostics.extend(RULES.iter().flat_map(|rule| rule(&context)));
         }
-        pous[id.0].body = typed.body;
-        pous[id.0].types = typed.types;
-        pous[id.0].literals = typed.literals;
+        let checked = Pou {
+            name: pou.name.text.clone(),
+            kind: pou.kind,
+            is_library: project.is_library(id),
+            variables: variables(project.symbols(id)),
+            body: typed.body,
+            types: typed.types,
+            literals: typed.literals,
+        };
+        pous.insert(id, checked);
     }
     let interval = interval::of(unit, &project.pou(entry).name, &mut diagnostics);
     if clean && !any_error(&diagnostics) {
@@ -224,18 +231,6 @@ fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterat
         let message = format!("{} `{}` is not called by the program and is not checked", pou.kind, pou.name.text);
         Diagnostic::new(Code::PouNotChecked, pou.name.span, message).help("call it, or check it in a file of its own")
     })
-}
-
-fn empty(project: &Project<'_>, id: PouId, pou: &ast::Pou) -> Pou {
-    Pou {
-        name: pou.name.text.clone(),
-        kind: pou.kind,
-        is_library: project.is_library(id),
-        variables: variables(project.symbols(id)),
-        body: Vec::new(),
-        types: Vec::new(),
-        literals: Vec::new(),
-    }
 }
 
 fn variables(symbols: &Symbols) -> Vec<Variable> {

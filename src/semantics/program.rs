@@ -1,5 +1,7 @@
 //! The checked program: names resolved to variables, labels to positions, every value typed.
 
+use std::collections::BTreeMap;
+
 use super::function::Function;
 use super::shape::{PouId, Scalar, Shape, Value};
 use super::symbols::{Area, Section};
@@ -10,8 +12,8 @@ pub use crate::syntax::ast::{Condition, PouKind};
 /// A program that satisfies every static rule, with all it calls.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// The units, in the order they were found; [`PouId`] is the position. Those that are not needed are empty.
-    pub pous: Vec<Pou>,
+    /// The units it needs.
+    pub pous: BTreeMap<PouId, Pou>,
     /// The one that is executed once in every scan.
     pub entry: PouId,
     /// The global variables.

@@ -222,7 +222,10 @@ fn addresses(unit: &Unit, globals: &mut Symbols) {
     for pou in &unit.pous {
         let declared = pou.blocks.iter().flat_map(|block| &block.declarations).filter_map(|d| d.location.as_ref());
         let declared: BTreeSet<String> = declared.map(|location| address(&location.text)).collect();
-        let used = uses::named(&pou.body).into_iter().filter(|path| path.root.text.starts_with('%'));
+        let used = uses::paths(&pou.body, None)
+            .into_iter()
+            .map(|(path, _)| path)
+            .filter(|path| path.root.text.starts_with('%'));
         paths.extend(used.filter(|path| !declared.contains(&address(&path.root.text))));
     }
     for path in paths {

@@ -1,9 +1,11 @@
-//! Labels, jumps, returns and calls stand outside parentheses (B.2.1: a parenthesis holds a simple instruction list).
+//! Labels, jumps, returns and calls of function blocks stand outside parentheses and outside the lists of calls (B.2.1: both
+//! hold a simple instruction list).
 //!
 //! Passes: `AND( a`, `OR b`, `)`.
 //! Fails: `AND( a`, `JMPC on`, `)`.
 
 use super::Context;
+use super::effect::{Leaves, effect};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Operation, with_nested};
 
@@ -22,6 +24,9 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
             Some(Operation::Jump { .. }) => report(instruction.span, "a jump"),
             Some(Operation::Return { .. }) => report(instruction.span, "a return"),
             Some(Operation::Call { .. }) => report(instruction.span, "a call"),
+            Some(Operation::Simple { operator, .. }) if effect(instruction, context).1 == Leaves::Nothing => {
+                report(instruction.span, &format!("`{operator}` calls a function block, and"));
+            }
             _ => {}
         }
     }

@@ -1,38 +1,51 @@
-//! A parenthesis begins with a value: an operand behind `(`, or a load as its first instruction.
+//! A parenthesis begins with a value: an operand behind `(`, or a load as its first instruction. So does a list in a call.
 //!
 //! Passes: `AND( a` … `)`; `AND(`, `LD a` … `)`.
-//! Fails: `AND(`, `OR a`, `)`; `AND(`, `)`.
+//! Fails: `AND(`, `OR a`, `)`; `AND(`, `)`; `CAL t(IN := (` `AND a` … `))`.
+
+use std::collections::BTreeSet;
 
 use super::Context;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Instruction, Operation, Verb, with_nested};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
     // Of parentheses that begin with one another, the outermost is reported: `AND(AND(AND(` is one mistake.
-    let mut reported: Option<&Instruction> = None;
-    with_nested(&context.pou.body)
-        .filter_map(|(instruction, _)| {
-            let Some(Operation::Parenthesis { operator, first: None, body, close }) = &instruction.operation else {
-                return None;
-            };
-            let unvalued = |span, message: String| {
-                Diagnostic::new(Code::ParenthesisWithoutValue, span, message)
-                    .also(instruction.span, "the parenthesis opens here")
-                    .help(format!("begin with `{operator}( a` or with `LD a`"))
-            };
-            match body.first() {
-                None => Some(unvalued(*close, "this parenthesis is empty".to_owned())),
-                Some(first) if begins_with_value(first) || is_broken(first) => None,
-                Some(first) => {
-                    if reported.replace(first).is_some_and(|outer| std::ptr::eq(outer, instruction)) {
-                        return None;
+    let mut reported = BTreeSet::new();
+    for (instruction, _) in with_nested(&context.pou.body) {
+        match &instruction.operation {
+            Some(Operation::Parenthesis { first: Some(_), .. }) => {}
+            Some(Operation::Parenthesis { operator, first: None, body, close }) => {
+                let unvalued = |span, message: &str| {
+                    Diagnostic::new(Code::ParenthesisWithoutValue, span, message)
+                        .also(instruction.span, "the parenthesis opens here")
+                        .help(format!("begin with `{operator}( a` or with `LD a`"))
+                };
+                match body.first() {
+                    None => found.push(unvalued(*close, "this parenthesis is empty")),
+                    Some(first) if begins_with_value(first) || is_broken(first) => {}
+                    Some(first) => {
+                        reported.insert(first.span);
+                        if !reported.contains(&instruction.span) {
+                            let message = "the parenthesis has no value yet when this instruction uses it";
+                            found.push(unvalued(first.span, message));
+                        }
                     }
-                    let message = "the parenthesis has no value yet when this instruction uses it";
-                    Some(unvalued(first.span, message.to_owned()))
                 }
             }
-        })
-        .collect()
+            _ => {
+                for first in instruction.lists().into_iter().filter_map(<[_]>::first).filter(|i| !begins_with_value(i))
+                {
+                    reported.insert(first.span);
+                    let message = "the list has no value yet when this instruction uses it";
+                    let diagnostic = Diagnostic::new(Code::ParenthesisWithoutValue, first.span, message);
+                    found.push(diagnostic.help("begin it with `LD`"));
+                }
+            }
+        }
+    }
+    found
 }
 
 /// A load; calls and control are reported by other rules.

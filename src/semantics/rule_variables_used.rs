@@ -14,7 +14,7 @@ use crate::syntax::ast::key;
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     // Whether each variable that occurs is written.
     let mut written: BTreeMap<String, bool> = BTreeMap::new();
-    for (path, writes) in uses::paths(context) {
+    for (path, writes) in uses::paths(&context.pou.body, Some(context)) {
         let by_address = context.symbols.find(&path.root.text).map(|(_, symbol)| key(&symbol.name));
         *written.entry(by_address.unwrap_or_else(|| path.root.key())).or_default() |= writes;
     }

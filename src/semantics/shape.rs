@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::types::Type;
 
-/// A program organisation unit, as a position in [`Program::pous`](super::Program::pous).
+/// A program organisation unit, a key of [`Program::pous`](super::Program::pous).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PouId(pub usize);
 

@@ -117,7 +117,7 @@ fn globals(unit: &Unit, found: &mut Vec<Diagnostic>) {
     for (i, pou) in unit.pous.iter().enumerate() {
         let context = project.context(PouId(i));
         let mut reported = BTreeSet::new();
-        for (path, _) in uses::paths(&context) {
+        for (path, _) in uses::paths(&context.pou.body, Some(&context)) {
             let name = &path.root.text;
             let is_global = context.symbols.find(name).is_none() && project.globals.find(name).is_some();
             if is_global && !name.starts_with('%') && reported.insert(key(name)) {

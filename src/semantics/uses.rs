@@ -7,10 +7,10 @@ use crate::syntax::ast::{
     Argument, Arguments, Feed, Instruction, Operand, Operation, Part, Path, Subscript, Verb, with_nested,
 };
 
-/// Every path in a unit, and whether it is written.
-pub fn paths<'a>(context: &Context<'a>) -> Vec<(&'a Path, bool)> {
+/// Every path in a list, and whether it is written. Before anything is known of the names, there is no context.
+pub fn paths<'a>(body: &'a [Instruction], context: Option<&Context<'_>>) -> Vec<(&'a Path, bool)> {
     let mut paths = Vec::new();
-    for (instruction, _) in with_nested(&context.pou.body) {
+    for (instruction, _) in with_nested(body) {
         of_instruction(instruction, context, &mut paths);
     }
     let indices: Vec<(&Path, bool)> = paths.iter().flat_map(|(path, _)| indices(path)).collect();
@@ -18,61 +18,27 @@ pub fn paths<'a>(context: &Context<'a>) -> Vec<(&'a Path, bool)> {
     paths
 }
 
-/// Every path in a list, before anything is known of the names.
-pub fn named(body: &[Instruction]) -> Vec<&Path> {
-    let mut paths = Vec::new();
-    for (instruction, _) in with_nested(body) {
-        of_any(instruction, &mut paths);
-    }
-    let indices: Vec<&Path> = paths.iter().flat_map(|path| indices(path)).map(|(path, _)| path).collect();
-    paths.extend(indices);
-    paths
-}
-
-fn of_any<'a>(instruction: &'a Instruction, paths: &mut Vec<&'a Path>) {
-    let mut operand = |operand: &'a Operand| {
-        if let Operand::Variable(path) = operand {
-            paths.push(path);
-        }
-    };
-    let arguments = match &instruction.operation {
-        Some(Operation::Simple { operands, .. }) => return operands.iter().for_each(operand),
-        Some(Operation::Parenthesis { first, .. }) => return first.iter().for_each(operand),
-        Some(Operation::Call { arguments, .. } | Operation::Function { arguments, .. }) => &arguments.list,
-        _ => return,
-    };
-    for argument in arguments {
-        match argument {
-            Argument::Positional(value) | Argument::Input { value: Feed::Operand(value), .. } => operand(value),
-            Argument::Output { target, .. } => operand(target),
-            Argument::Input { value: Feed::List(_), .. } => {}
-        }
-    }
-    for argument in arguments {
-        if let Argument::Input { value: Feed::List(list), .. } = argument {
-            list.iter().for_each(|instruction| of_any(instruction, paths));
-        }
-    }
-}
-
-fn of_instruction<'a>(instruction: &'a Instruction, context: &Context<'a>, paths: &mut Vec<(&'a Path, bool)>) {
+/// The paths in an instruction, but not those in the lists inside it.
+fn of_instruction<'a>(instruction: &'a Instruction, context: Option<&Context<'_>>, paths: &mut Vec<(&'a Path, bool)>) {
     match &instruction.operation {
         Some(Operation::Simple { operator, operands }) => {
-            let writes = matches!(operator.verb, Verb::St | Verb::S | Verb::R)
-                && operands.first().is_some_and(|operand| block(operand, context).is_none());
+            let is_block = |operand| context.is_some_and(|context| block(operand, context).is_some());
+            let writes =
+                matches!(operator.verb, Verb::St | Verb::S | Verb::R) && !operands.first().is_some_and(is_block);
             operands.iter().for_each(|operand| of_operand(operand, writes, paths));
         }
         Some(Operation::Parenthesis { first: Some(first), .. }) => of_operand(first, false, paths),
         Some(Operation::Call { callee, arguments, .. }) => {
             paths.push((callee, false));
-            let id = match shape(callee, context) {
-                Some(Shape::Instance(id)) => Some(id),
+            let id = context.and_then(|context| match shape(callee, context)? {
+                Shape::Instance(id) => Some(id),
                 _ => None,
-            };
-            of_arguments(arguments, id, context, paths);
+            });
+            of_arguments(arguments, id.zip(context), paths);
         }
         Some(Operation::Function { name, arguments }) => {
-            of_arguments(arguments, context.project.find(&name.text), context, paths);
+            let callee = context.and_then(|context| Some((context.project.find(&name.text)?, context)));
+            of_arguments(arguments, callee, paths);
         }
         _ => {}
     }
@@ -81,11 +47,10 @@ fn of_instruction<'a>(instruction: &'a Instruction, context: &Context<'a>, paths
 /// The arguments of a call. A variable that an in-out variable stands for is read, and it is written: by what is called.
 fn of_arguments<'a>(
     arguments: &'a Arguments,
-    callee: Option<PouId>,
-    context: &Context<'a>,
+    callee: Option<(PouId, &Context<'_>)>,
     paths: &mut Vec<(&'a Path, bool)>,
 ) {
-    let symbols = callee.map(|id| context.project.symbols(id));
+    let symbols = callee.map(|(id, context)| context.project.symbols(id));
     let section = |name: &str| symbols.and_then(|symbols| symbols.find(name)).map(|(_, symbol)| symbol.section);
     let by_position = symbols.into_iter().flat_map(Symbols::list).map(|symbol| symbol.section);
     let by_position = by_position.filter(|section| matches!(section, Section::Input | Section::InOut));
@@ -103,9 +68,7 @@ fn of_arguments<'a>(
                     of_operand(operand, true, paths);
                 }
             }
-            Argument::Input { value: Feed::List(list), .. } => {
-                list.iter().for_each(|instruction| of_instruction(instruction, context, paths));
-            }
+            Argument::Input { value: Feed::List(_), .. } => {}
             Argument::Output { target, .. } => of_operand(target, true, paths),
         }
     }

@@ -59,7 +59,7 @@ impl<'p> Reference<'p> {
         let scan_time = i128::from(program.interval.unwrap_or(20));
         let (memory, hazards) = (Vec::new(), Vec::new());
         let mut new = Self { program, scan_time, memory, globals: 0, result: 0, hazards, steps: 0, clocks_stop };
-        let entry = &program.pous[program.entry.0];
+        let entry = &program.pous[&program.entry];
         new.memory = entry.variables.iter().map(|variable| new.cell(&variable.shape, &variable.initial)).collect();
         new.globals = new.memory.len();
         let globals: Vec<Cell> =
@@ -72,7 +72,7 @@ impl<'p> Reference<'p> {
     /// in-out variables are left out.
     pub fn values(&self) -> Vec<u64> {
         let mut values = Vec::new();
-        let entry = &self.program.pous[self.program.entry.0];
+        let entry = &self.program.pous[&self.program.entry];
         let own = entry.variables.iter().map(|variable| (&variable.shape, variable.section));
         let global = self.program.globals.iter().map(|variable| (&variable.shape, variable.section));
         for (cell, (shape, section)) in self.memory.iter().zip(own.chain(global)) {
@@ -91,7 +91,7 @@ impl<'p> Reference<'p> {
                 cells.iter().zip(&structure.members).for_each(|(c, member)| self.leaves(c, &member.shape, values));
             }
             (Cell::Parts(cells), Shape::Instance(id)) => {
-                for (cell, variable) in cells.iter().zip(&self.program.pous[id.0].variables) {
+                for (cell, variable) in cells.iter().zip(&self.program.pous[&id].variables) {
                     if stays(variable.section) {
                         self.leaves(cell, &variable.shape, values);
                     }
@@ -123,7 +123,7 @@ impl<'p> Reference<'p> {
                 Cell::Parts(members.map(|(i, m)| self.cell(&m.shape, given(i).unwrap_or(&m.initial))).collect())
             }
             Shape::Instance(id) => {
-                let variables = self.program.pous[id.0].variables.iter();
+                let variables = self.program.pous[&id].variables.iter();
                 Cell::Parts(variables.map(|v| self.cell(&v.shape, &v.initial)).collect())
             }
         }
@@ -139,7 +139,7 @@ impl<'p> Reference<'p> {
         self.hazards.clear();
         self.steps = steps;
         let program = self.program;
-        let pou = &program.pous[program.entry.0];
+        let pou = &program.pous[&program.entry];
         let shapes = pou.variables.iter().chain(&program.globals).map(|variable| Rc::new(variable.shape.clone()));
         for (i, shape) in shapes.enumerate() {
             let mut cell = std::mem::replace(&mut self.memory[i], Cell::One(0));
@@ -172,7 +172,7 @@ impl<'p> Reference<'p> {
                 cells.iter_mut().zip(&structure.members).for_each(|(cell, member)| self.tick(cell, &member.shape));
             }
             Shape::Instance(id) => {
-                let pou = &self.program.pous[id.0];
+                let pou = &self.program.pous[&id];
                 let find = |name: &str| pou.variables.iter().position(|variable| variable.name == name);
                 if let (true, Some(clock), Some(running)) = (pou.is_library, find("CLOCK"), find("RUNNING")) {
                     let number = |position: usize| Type::TIME.number(one(&cells[position]));

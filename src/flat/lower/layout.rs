@@ -47,7 +47,7 @@ impl<'p> Layouts<'p> {
         }
         let mut size = 0;
         let mut offsets = Vec::new();
-        for variable in &self.program.pous[id.0].variables {
+        for variable in &self.program.pous[&id].variables {
             offsets.push(size);
             if is_kept(variable.section) {
                 size += self.size(&variable.shape);

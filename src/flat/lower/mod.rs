@@ -41,7 +41,7 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     lowering.place_label(entry.exit);
     lowering.resolve();
     let scan_time = has_timers.then_some(lowering.scan_time);
-    let name = program.pous[program.entry.0].name.clone();
+    let name = program.pous[&program.entry].name.clone();
     let Lowering { variables, code, restrictions, timers, .. } = lowering;
     let mut flat = FlatProgram { name, variables, code, restrictions, scan_time, presets_vary: false };
     narrow(&mut flat, &timers);
@@ -96,7 +96,7 @@ impl<'p> Lowering<'p> {
     }
 
     fn pou(&self, id: PouId) -> &'p Pou {
-        &self.program.pous[id.0]
+        &self.program.pous[&id]
     }
 
     /// Makes the declared variables: those of the program, then the global ones.

@@ -11,7 +11,7 @@ use crate::semantics::program::{Action, Call, Callee, Condition, Enable, Feed, F
 use crate::semantics::shape::Shape;
 use crate::semantics::symbols::{Section, Symbol};
 use crate::source::Span;
-use crate::syntax::ast::{self, Argument, Arguments, Name, Operand, Operator, Path, PouKind, with_nested};
+use crate::syntax::ast::{self, Argument, Arguments, Name, Operand, Operator, Path, PouKind};
 
 impl Typing<'_> {
     /// `CAL`, `CALC`, `CALCN`.
@@ -309,22 +309,6 @@ impl Typing<'_> {
     /// The result of a list in a call.
     pub fn feed_list(&mut self, list: &[ast::Instruction], span: Span) -> Feed {
         let undefined = self.types.fresh();
-        let inner = with_nested(list).filter_map(|(instruction, _)| match &instruction.operation {
-            Some(ast::Operation::Parenthesis { first: None, body, .. }) => Some((body.as_slice(), instruction.span)),
-            _ => None,
-        });
-        for (list, span) in [(list, span)].into_iter().chain(inner) {
-            let begins = matches!(
-                list.first().and_then(|first| first.operation.as_ref()),
-                Some(ast::Operation::Simple { operator, .. }) if operator.verb == ast::Verb::Ld
-            );
-            if !begins {
-                let at = list.first().map_or(span, |first| first.span);
-                let message = "the list has no value yet when this instruction uses it";
-                self.diagnostics
-                    .push(Diagnostic::new(Code::ParenthesisWithoutValue, at, message).help("begin it with `LD`"));
-            }
-        }
         let (statements, ty) = self.sequence(list, undefined);
         Feed { ty, source: FeedSource::List(statements), span }
     }

@@ -157,16 +157,9 @@ impl Typing<'_> {
         let mut result = result;
         let mut statements = Vec::new();
         for instruction in body {
-            let leaves = effect(instruction, self.context).1;
-            if let (Some(Operation::Simple { operator, .. }), Leaves::Nothing) = (&instruction.operation, leaves) {
-                let message = format!("`{operator}` calls a function block, and stands inside parentheses");
-                let help = "store the value so far in a variable, and put it behind the closing parenthesis";
-                self.diagnostics
-                    .push(Diagnostic::new(Code::ControlInsideParentheses, instruction.span, message).help(help));
-            }
             let (action, next) = self.instruction(instruction, result);
             statements.extend(action.map(|action| Statement { action, span: instruction.span }));
-            if leaves == Leaves::Value {
+            if effect(instruction, self.context).1 == Leaves::Value {
                 result = next;
             }
         }

@@ -232,6 +232,10 @@ fn files_that_are_refused() {
             &[(ParameterUnfit, 2)],
         ),
         ("FUNCTION_BLOCK f VAR\nx : f; END_VAR CAL x\nEND_FUNCTION_BLOCK", &[(Recursion, 2)]),
+        (
+            "FUNCTION f : INT VAR_INPUT v : INT; END_VAR\nMAX(IN1 := (\nLD v\nf\n), IN2 := v)\nST f\nEND_FUNCTION",
+            &[(Recursion, 4)],
+        ),
     ];
     for (file, expected) in files {
         let errors: Vec<_> = findings(file).into_iter().filter(|(code, _)| code.id().starts_with('E')).collect();
@@ -277,6 +281,8 @@ fn files_without_a_doubt() {
         "TYPE TP : (A, B); END_TYPE\nPROGRAM p VAR x : TP; END_VAR\nLD A\nST x\nEND_PROGRAM",
         // Instances in arrays.
         "PROGRAM p VAR t : ARRAY [1..2] OF TON; END_VAR VAR_INPUT i : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nCAL t[1](IN := i, PT := T#1s)\nLD t[1].Q\nST q\nEND_PROGRAM",
+        // What a list in a call uses, in parentheses too, is used; addresses in it need no declaration.
+        "PROGRAM p VAR_INPUT i, j, k : BOOL; END_VAR VAR x : SR; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nCAL x(S1 := (\nLD %IX0.0\nAND( i\nOR( j\nAND %IX0.1\n)\n)\n), R := k)\nLD x.Q1\nST q\nEND_PROGRAM",
         // A label and a variable may share a name.
         "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD i\nJMPC i\nST q\ni:\nEND_PROGRAM",
     ];

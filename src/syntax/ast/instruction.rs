@@ -16,20 +16,36 @@ pub struct Instruction {
     pub span: Span,
 }
 
-/// The instructions of a list and of all parentheses in it, in the order of the text, each with its nesting depth.
+impl Instruction {
+    /// The lists inside it, in the order of the text: that of a parenthesis, or those that give inputs of a call their values.
+    #[must_use]
+    pub fn lists(&self) -> Vec<&[Instruction]> {
+        match &self.operation {
+            Some(Operation::Parenthesis { body, .. }) => vec![body],
+            Some(Operation::Call { arguments, .. } | Operation::Function { arguments, .. }) => {
+                let lists = arguments.list.iter().filter_map(|argument| match argument {
+                    Argument::Input { value: Feed::List(list), .. } => Some(list.as_slice()),
+                    _ => None,
+                });
+                lists.collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// The instructions of a list and of all lists in it, in the order of the text, each with its nesting depth.
 pub fn with_nested(body: &[Instruction]) -> impl Iterator<Item = (&Instruction, usize)> {
-    let mut stack = vec![body.iter()];
+    let mut open = vec![(body.iter(), 0)];
     std::iter::from_fn(move || {
         loop {
-            let depth = stack.len().checked_sub(1)?;
-            let Some(instruction) = stack[depth].next() else {
-                stack.pop();
-                continue;
-            };
-            if let Some(Operation::Parenthesis { body, .. }) = &instruction.operation {
-                stack.push(body.iter());
+            let (list, depth) = open.last_mut()?;
+            let depth = *depth;
+            if let Some(instruction) = list.next() {
+                open.extend(instruction.lists().into_iter().rev().map(|list| (list.iter(), depth + 1)));
+                return Some((instruction, depth));
             }
-            return Some((instruction, depth));
+            open.pop();
         }
     })
 }

@@ -15,7 +15,7 @@ impl<'p> Reference<'p> {
         let given = self.result;
         let program = self.program;
         let (Callee::Instance(id, _) | Callee::Function(id)) = &call.callee;
-        let pou = &program.pous[id.0];
+        let pou = &program.pous[&id];
         let base = match &call.callee {
             Callee::Instance(_, place) => Some(self.location(frame, place)),
             Callee::Function(_) => None,
@@ -72,7 +72,7 @@ impl<'p> Reference<'p> {
     fn variables(&mut self, id: PouId, base: Option<&Location>) -> Vec<Option<Location>> {
         let program = self.program;
         let mut variables = Vec::new();
-        for (position, variable) in program.pous[id.0].variables.iter().enumerate() {
+        for (position, variable) in program.pous[&id].variables.iter().enumerate() {
             variables.push(match (variable.section, base) {
                 (Section::InOut, _) => None,
                 (Section::External(_), _) => Some(self.own(position, variable.section)),
