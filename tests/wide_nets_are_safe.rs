@@ -5,7 +5,7 @@ mod support;
 
 use std::collections::BTreeSet;
 
-use petril::flat::{FlatProgram, Function, Instruction, Operand, Target};
+use petril::flat::{Element, FlatProgram, Function, Instruction, Operand, Target};
 use petril::net::PlaceId;
 use petril::semantics::{Role, Type, VarId};
 use petril::translate::{Part, PlaceRole, Plant, System, TransitionRole};
@@ -117,6 +117,21 @@ fn nets_grow_with_the_number_of_instructions() {
     // carries.
     assert_eq!(two.1 - one.1, 64 + 4 + 15 * 8 + 1 + 64);
     assert_eq!(two.0 - one.0, 16 + 1 + 15 * 2 + 1 + 16);
+}
+
+/// The elements are bits, so the distance `NOT element` is at least 2 and far beyond: no way leads to a shift by less.
+#[test]
+fn a_bit_that_no_element_stores_is_known() {
+    let byte = Type::named("BYTE").unwrap();
+    let mut variables =
+        vec![variable("e0", Role::Memory, byte), variable("e1", Role::Memory, byte), variable("i", Role::Buffer, byte)];
+    variables.iter_mut().for_each(|variable| variable.bits = 1);
+    let element = Element { first: VarId(0), stride: 1, length: 2, index: VarId(2) };
+    let operand = Operand::Place(Target::Element(element));
+    let shift = Instruction::Combine { function: Function::Shr, ty: byte, negated: true, operand };
+    let system = System::new(flat(variables, vec![shift]), Plant::default());
+    assert_safe(&system);
+    assert_eq!(system.transitions_of(TransitionRole::Line(0)).count(), 8 * 2, "each bit is set to 0 at once");
 }
 
 /// Registers are there for those who need them only.

@@ -18,8 +18,11 @@ fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Vec<Change>)> {
     (0..element.length).filter(can_be).map(choice).collect()
 }
 
-/// A bit of the element that the index chooses.
+/// A bit of the element that the index chooses. One that no element stores is 0, whatever the index is.
 pub fn wire(subnet: &Subnet<'_>, element: Element, bit: u32) -> Wire {
+    if element.all().all(|variable| subnet.variable(variable).len() <= bit as usize) {
+        return Wire::fixed(false);
+    }
     let mut readings = Vec::new();
     for (variable, given) in choices(subnet, element) {
         match subnet.variable(variable).get(bit as usize) {
