@@ -8,27 +8,6 @@ use petril::semantics::{Kind, Type};
 use proptest::prelude::*;
 use support::token_game::Bench;
 
-const FUNCTIONS: [Function; 18] = [
-    Function::And,
-    Function::Or,
-    Function::Xor,
-    Function::Add,
-    Function::Sub,
-    Function::Mul,
-    Function::Div,
-    Function::Mod,
-    Function::Gt,
-    Function::Ge,
-    Function::Eq,
-    Function::Ne,
-    Function::Le,
-    Function::Lt,
-    Function::Shl,
-    Function::Shr,
-    Function::Rol,
-    Function::Ror,
-];
-
 fn is_arithmetic(function: Function) -> bool {
     use Function::{Add, Div, Mod, Mul, Sub};
     matches!(function, Add | Sub | Mul | Div | Mod)
@@ -42,7 +21,7 @@ fn of(ty: Type) -> impl Iterator<Item = Function> {
         Kind::Bits => !is_arithmetic(function),
         _ => !bits(function),
     };
-    FUNCTIONS.into_iter().filter(fits)
+    Function::ALL.into_iter().filter(fits)
 }
 
 /// What comes of a function, by the operations of Rust on a wider type.

@@ -26,10 +26,10 @@ pub struct Declare<'a> {
     /// Every enumeration, for the names of its values.
     pub enumerations: Vec<Rc<Enumeration>>,
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether the unit that is read is a function.
-    pub in_function: bool,
     /// The variables of the units, once they are known.
     pub known: Option<Vec<Symbols>>,
+    /// Whether they were needed before they were known.
+    pub needs_units: bool,
 }
 
 impl<'a> Declare<'a> {
@@ -43,8 +43,8 @@ impl<'a> Declare<'a> {
             blocks,
             enumerations: Vec::new(),
             diagnostics: Vec::new(),
-            in_function: false,
             known,
+            needs_units: false,
         };
         for declaration in types {
             let name = &declaration.name;
@@ -189,13 +189,9 @@ impl<'a> Declare<'a> {
         }
         let values: Vec<String> = values.iter().map(|value| value.text.clone()).collect();
         let name = name.map_or_else(|| format!("({})", values.join(", ")), str::to_owned);
-        let width = if values.len() <= 1 << 8 { 8 } else { 16 };
         let enumeration = Rc::new(Enumeration { name, values: values.into() });
         self.enumerations.push(enumeration.clone());
-        let ty = Type::new(Kind::Unsigned, width);
-        let range = Some((0, enumeration.values.len() as i128 - 1));
-        let scalar = Scalar { ty, range, enumeration: Some(enumeration), default: 0 };
-        Some((Shape::Scalar(scalar), Value::Default))
+        Some((Shape::Scalar(Scalar::enumerated(enumeration)), Value::Default))
     }
 
     fn named(&mut self, name: &Name) -> Option<(Shape, Value)> {
@@ -214,11 +210,6 @@ impl<'a> Declare<'a> {
             }
             return block;
         };
-        if self.open.len() >= MAX_DEPTH {
-            let message = format!("types are nested more than {MAX_DEPTH} deep here");
-            self.report(Code::VariableTooLarge, name.span, message, |d| d);
-            return None;
-        }
         if self.open.contains(&key) {
             let message = format!("the type `{}` contains itself", name.text);
             self.report(Code::TypeRecursive, name.span, message, |d| {

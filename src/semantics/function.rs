@@ -42,6 +42,28 @@ pub enum Function {
 }
 
 impl Function {
+    /// All of them.
+    pub const ALL: [Self; 18] = [
+        Self::And,
+        Self::Or,
+        Self::Xor,
+        Self::Add,
+        Self::Sub,
+        Self::Gt,
+        Self::Ge,
+        Self::Eq,
+        Self::Ne,
+        Self::Le,
+        Self::Lt,
+        Self::Shl,
+        Self::Shr,
+        Self::Rol,
+        Self::Ror,
+        Self::Mul,
+        Self::Div,
+        Self::Mod,
+    ];
+
     /// The operator's word.
     #[must_use]
     pub fn word(self) -> &'static str {

@@ -100,7 +100,7 @@ impl Inference {
                 None => self.fresh(),
             },
             Some(Literal::Enumerated(name, _)) => match enumeration(name) {
-                Some(enumeration) => self.of(&enumerated(enumeration), constant.span),
+                Some(enumeration) => self.of(&Scalar::enumerated(enumeration), constant.span),
                 None => self.fresh(),
             },
             _ => self.fresh(),
@@ -237,11 +237,4 @@ fn advice(class: Class, scalar: &Scalar) -> String {
         _ if ty.kind == Kind::Bits => format!("convert it with `{ty}_TO_{}` first", named(Kind::Unsigned)),
         _ => "times are added, subtracted and compared; convert them with `TIME_TO_DINT` for more".to_owned(),
     }
-}
-
-/// The type of the values of an enumeration.
-pub fn enumerated(enumeration: Rc<Enumeration>) -> Scalar {
-    let width = if enumeration.values.len() <= 1 << 8 { 8 } else { 16 };
-    let range = Some((0, enumeration.values.len() as i128 - 1));
-    Scalar { ty: Type::new(Kind::Unsigned, width), range, enumeration: Some(enumeration), default: 0 }
 }

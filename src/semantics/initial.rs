@@ -108,7 +108,10 @@ impl Declare<'_> {
                 Some(Value::Parts(parts.into()))
             }
             (InitialKind::Structure(given), Shape::Instance(id)) => {
-                let Some(known) = &self.known else { return Some(Value::Default) };
+                let Some(known) = &self.known else {
+                    self.needs_units = true;
+                    return Some(Value::Default);
+                };
                 let symbols = known[id.0].clone();
                 let mut parts = Vec::new();
                 for (name, value) in given {

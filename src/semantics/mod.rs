@@ -3,11 +3,14 @@
 //! Declarations become shapes (`declare`), names symbols (`project`), instructions typed statements (`typing`); what
 //! these cannot read they report. The rules beyond that are the files `rule_….rs`, one sentence each.
 
+mod address;
+mod call_graph;
 mod constant;
 mod control_flow;
 mod declare;
 mod effect;
 mod extent;
+mod flow;
 mod function;
 mod inference;
 mod initial;
@@ -22,6 +25,7 @@ mod symbols;
 mod types;
 mod typing;
 mod uses;
+mod variables;
 
 mod rule_constants_have_values;
 mod rule_constants_not_written;
@@ -40,8 +44,10 @@ mod rule_variables_used;
 #[cfg(test)]
 mod testing;
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use address::Area;
 pub use function::Function;
 pub use library::{CLOCK, RUNNING, text as library_text};
 pub use program::{
@@ -50,12 +56,13 @@ pub use program::{
 };
 pub use shape::{Enumeration, Member, PouId, Scalar, Shape, Structure, Value, elements};
 pub use strict::strict;
-pub use symbols::{Area, Section};
+pub use symbols::Section;
 pub use types::{Kind, Type};
 
 use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::source::Span;
 use crate::syntax::ast::{self, Name, Unit};
+use flow::Flow;
 use project::Project;
 use symbols::Symbols;
 
@@ -66,6 +73,14 @@ struct Context<'a> {
     pou: &'a ast::Pou,
     symbols: &'a Symbols,
     labels: BTreeMap<String, usize>,
+    flow: OnceCell<Flow>,
+}
+
+impl Context<'_> {
+    /// The flow of its instruction list.
+    fn flow(&self) -> &Flow {
+        self.flow.get_or_init(|| Flow::of(self))
+    }
 }
 
 /// A rule reports what breaks it.
@@ -119,6 +134,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     extent::check(&project, &needed, &mut diagnostics);
     diagnostics.extend(without_caller(&project, entry));
     let mut pous = BTreeMap::new();
+    let mut own = Vec::new();
     for &id in &needed {
         let pou = project.pou(id);
         if let Some((language, span)) = &pou.foreign {
@@ -131,6 +147,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
             diagnostics.append(&mut of_units[id.0]);
             diagnostics.extend(typed.diagnostics);
             diagnostics.extend(RULES.iter().flat_map(|rule| rule(&context)));
+            own.push(context);
         }
         let checked = Pou {
             name: pou.name.text.clone(),
@@ -146,9 +163,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     let interval = interval::of(unit, &project.pou(entry).name, &mut diagnostics);
     if clean && !any_error(&diagnostics) {
         diagnostics.extend(not_checked(&project, &needed));
-        let own = needed.iter().filter(|&&id| !project.is_library(id)).map(|&id| project.context(id));
-        diagnostics
-            .extend(own.flat_map(|context| DOUBTS.iter().flat_map(move |rule| rule(&context)).collect::<Vec<_>>()));
+        diagnostics.extend(own.iter().flat_map(|context| DOUBTS.iter().flat_map(move |rule| rule(context))));
     }
     diagnostics.sort_by_key(Diagnostic::span);
     diagnostics.dedup();

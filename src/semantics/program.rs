@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::address::Area;
 use super::function::Function;
 use super::shape::{PouId, Scalar, Shape, Value};
-use super::symbols::{Area, Section};
+use super::symbols::Section;
 use super::types::Type;
 use crate::source::Span;
 pub use crate::syntax::ast::{Condition, PouKind};

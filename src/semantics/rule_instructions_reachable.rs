@@ -11,7 +11,7 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     if !control_flow::is_known(body) {
         return Vec::new();
     }
-    let reachable = control_flow::reachable(&control_flow::graph(body));
+    let reachable = &context.flow().reachable;
     let mut found = Vec::new();
     let mut i = 0;
     while i < body.len() {

@@ -6,16 +6,16 @@
 use petgraph::Direction;
 use petgraph::graph::NodeIndex;
 
-use super::effect::{Leaves, effect};
-use super::{Context, control_flow};
+use super::Context;
+use super::control_flow::ControlFlow;
+use super::effect::Leaves;
+use super::flow::Flow;
 use crate::diagnostic::{Code, Diagnostic};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let body = &context.pou.body;
-    let effects: Vec<(bool, Leaves)> = body.iter().map(|instruction| effect(instruction, context)).collect();
-    let graph = control_flow::graph(body);
-    let undefined_after = undefined_after(&effects, &graph);
-    let reachable = control_flow::reachable(&graph);
+    let Flow { graph, effects, reachable, .. } = context.flow();
+    let undefined_after = undefined_after(effects, graph);
     let mut found = Vec::new();
     for (i, instruction) in body.iter().enumerate().filter(|&(i, _)| reachable[i] && effects[i].0) {
         let culprits = graph.neighbors_directed(NodeIndex::new(i), Direction::Incoming);
@@ -39,7 +39,7 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
 
 /// For each instruction, whether control can leave it while the current result has no value. A use gives it one here,
 /// so that one missing load is one diagnostic.
-fn undefined_after(effects: &[(bool, Leaves)], graph: &control_flow::ControlFlow) -> Vec<bool> {
+fn undefined_after(effects: &[(bool, Leaves)], graph: &ControlFlow) -> Vec<bool> {
     let mut undefined = vec![false; effects.len() + 1];
     let calls = (0..effects.len()).filter(|&i| effects[i].1 == Leaves::Nothing);
     let mut work: Vec<NodeIndex> = [0].into_iter().chain(calls).map(NodeIndex::new).collect();

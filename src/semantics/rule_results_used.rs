@@ -5,23 +5,19 @@
 
 use petgraph::graph::NodeIndex;
 
-use super::effect::{Leaves, effect};
-use super::{Context, control_flow};
+use super::Context;
+use super::effect::Leaves;
+use super::flow::Flow;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::Operation;
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let body = &context.pou.body;
-    if !control_flow::is_known(body) {
-        return Vec::new();
-    }
-    let graph = control_flow::graph(body);
-    let reachable = control_flow::reachable(&graph);
-    let effects: Vec<(bool, Leaves)> = body.iter().map(|instruction| effect(instruction, context)).collect();
-    let needed = super::typing::needed(body, context);
-    let lost = body.iter().enumerate().filter(|&(i, instruction)| {
-        let gives = effects[i].1 == Leaves::Value && !matches!(instruction.operation, Some(Operation::Broken));
-        gives && reachable[i] && !graph.neighbors(NodeIndex::new(i)).any(|next| needed[next.index()])
+    let Flow { graph, effects, reachable, needed } = context.flow();
+    let lost = body.iter().enumerate().filter(|&(i, _)| {
+        effects[i].1 == Leaves::Value
+            && reachable[i]
+            && !graph.neighbors(NodeIndex::new(i)).any(|next| needed[next.index()])
     });
     // A function of the file may be called for its outputs.
     let lost = lost.filter(|(_, instruction)| !matches!(instruction.operation, Some(Operation::Function { .. })));

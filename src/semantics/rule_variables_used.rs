@@ -18,10 +18,6 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
         let by_address = context.symbols.find(&path.root.text).map(|(_, symbol)| key(&symbol.name));
         *written.entry(by_address.unwrap_or_else(|| path.root.key())).or_default() |= writes;
     }
-    let whole = context.pou.body.iter().all(|i| !matches!(i.operation, Some(crate::syntax::ast::Operation::Broken)));
-    if !whole {
-        return Vec::new();
-    }
     context
         .symbols
         .list()

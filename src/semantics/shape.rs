@@ -1,11 +1,12 @@
 //! The types of variables: elementary ones, what is made of them, and function blocks.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::types::Type;
+use super::types::{Kind, Type};
 
 /// A program organisation unit, a key of [`Program::pous`](super::Program::pous).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -110,6 +111,14 @@ impl Scalar {
     pub fn new(ty: Type) -> Self {
         Self { ty, range: None, enumeration: None, default: 0 }
     }
+
+    /// A scalar of an enumeration: a number from 0 for each of its values.
+    #[must_use]
+    pub fn enumerated(enumeration: Rc<Enumeration>) -> Self {
+        let width = if enumeration.values.len() <= 1 << 8 { 8 } else { 16 };
+        let range = Some((0, enumeration.values.len() as i128 - 1));
+        Self { ty: Type::new(Kind::Unsigned, width), range, enumeration: Some(enumeration), default: 0 }
+    }
 }
 
 impl Shape {
@@ -129,6 +138,19 @@ impl Shape {
             Self::Scalar(_) | Self::Instance(_) => 1,
             Self::Array { ranges, of } => elements(ranges).saturating_mul(of.leaves()),
             Self::Structure(structure) => structure.leaves,
+        }
+    }
+
+    /// The function blocks that it holds instances of.
+    #[must_use]
+    pub fn instances(&self) -> BTreeSet<PouId> {
+        match self {
+            Self::Scalar(_) => BTreeSet::new(),
+            Self::Array { of, .. } => of.instances(),
+            Self::Structure(structure) => {
+                structure.members.iter().flat_map(|member| member.shape.instances()).collect()
+            }
+            Self::Instance(id) => BTreeSet::from([*id]),
         }
     }
 

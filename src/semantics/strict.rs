@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use super::project::{Project, read_address};
+use super::address;
+use super::project::Project;
 use super::shape::PouId;
 use super::{Shape, uses};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Source, Span};
 use crate::syntax::ast::{
-    Argument, Arguments, Instruction, Operation, Pou, PouKind, Unit, VarBlock, Verb, key, with_nested,
+    Argument, Arguments, Instruction, Operation, PouKind, Unit, VarBlock, Verb, key, with_nested,
 };
 use crate::syntax::{Comments, comments, without_comments};
 
@@ -102,7 +103,7 @@ fn names_and_addresses(block: &VarBlock, found: &mut Vec<Diagnostic>) {
         let unsized_at = declaration
             .location
             .as_ref()
-            .filter(|location| !is_bool && matches!(read_address(&location.text), Some((_, None))));
+            .filter(|location| !is_bool && matches!(address::read(&location.text), Some((_, None))));
         if let Some(location) = unsized_at {
             let message = format!("`{}` is the address of one bit", location.text);
             let help = "write the size: B for 8 bits, W for 16, D for 32, L for 64";
@@ -121,7 +122,7 @@ fn globals(unit: &Unit, found: &mut Vec<Diagnostic>) {
             let name = &path.root.text;
             let is_global = context.symbols.find(name).is_none() && project.globals.find(name).is_some();
             if is_global && !name.starts_with('%') && reported.insert(key(name)) {
-                let message = format!("`{name}` is a global variable that {} does not declare", title(pou));
+                let message = format!("`{name}` is a global variable that `{}` does not declare", pou.name.text);
                 let what = context.project.globals.find(name).and_then(|(_, symbol)| symbol.shape.as_ref());
                 let spec = what.map_or_else(|| "…".to_owned(), Shape::to_string);
                 let help = format!("declare it: `VAR_EXTERNAL {name} : {spec}; END_VAR`");
@@ -129,8 +130,4 @@ fn globals(unit: &Unit, found: &mut Vec<Diagnostic>) {
             }
         }
     }
-}
-
-fn title(pou: &Pou) -> String {
-    format!("`{}`", pou.name.text)
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::address::{self, Area};
 use super::shape::{Shape, Value};
 use crate::source::Span;
 use crate::syntax::ast::key;
@@ -25,17 +26,6 @@ pub enum Section {
     Result,
     /// `VAR_EXTERNAL`: stands for the global variable of this position.
     External(usize),
-}
-
-/// The area of an address.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Area {
-    /// `%I`
-    Input,
-    /// `%Q`
-    Output,
-    /// `%M`
-    Memory,
 }
 
 /// A declared name.
@@ -95,7 +85,7 @@ impl Symbols {
     /// The symbol of a name or address, however it is spelt.
     pub fn find(&self, name: &str) -> Option<(usize, &Symbol)> {
         let position = match name.strip_prefix('%') {
-            Some(_) => *self.by_address.get(&address(name))?,
+            Some(_) => *self.by_address.get(&address::spelling(name))?,
             None => *self.by_key.get(&key(name))?,
         };
         Some((position, &self.list[position]))
@@ -104,14 +94,5 @@ impl Symbols {
     /// The names as declared, for suggestions.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|symbol| symbol.name.as_str())
-    }
-}
-
-/// An address in the one spelling that all its spellings share: `%ix0.0` and `%I0.0` are `%I0.0`.
-pub fn address(text: &str) -> String {
-    let text = key(text);
-    match text.as_bytes() {
-        [b'%', _, b'X', ..] => format!("{}{}", &text[..2], &text[3..]),
-        _ => text,
     }
 }

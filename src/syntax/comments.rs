@@ -6,41 +6,69 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
+/// A comment, from its opening to behind its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Comment {
+    span: Span,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// `(* … *)`
+    Block,
+    /// `(* …` up to the end of the text.
+    Unclosed,
+    /// `// …`
+    ToLineEnd,
+}
+
+/// The comments of a text, one after another.
+fn scan(text: &str) -> impl Iterator<Item = Comment> {
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        while at < bytes.len() {
+            let start = at;
+            let kind;
+            (at, kind) = match &bytes[at..] {
+                [b'(', b'*', ..] => match block_end(bytes, at) {
+                    Some(end) => (end, Some(Kind::Block)),
+                    None => (bytes.len(), Some(Kind::Unclosed)),
+                },
+                [b'/', b'/', ..] => (line_end(bytes, at), Some(Kind::ToLineEnd)),
+                // Text in quotes holds no comments; it ends with its line at the latest.
+                [quote @ (b'\'' | b'"'), rest @ ..] => {
+                    let stop = rest.iter().position(|b| b == quote || *b == b'\n').unwrap_or(rest.len());
+                    ((at + stop + 2).min(bytes.len()), None)
+                }
+                _ => (at + 1, None),
+            };
+            if let Some(kind) = kind {
+                return Some(Comment { span: Span::new(start, at), kind });
+            }
+        }
+        None
+    })
+}
+
 /// The text with every comment replaced by as many blanks, and a diagnostic for a comment that is never closed. `start` is
 /// the text's offset in its file.
 pub fn blank(text: &str, start: usize) -> (String, Option<Diagnostic>) {
-    let bytes = text.as_bytes();
-    let mut blanked = bytes.to_vec();
+    let mut blanked = text.as_bytes().to_vec();
     let mut unclosed = None;
-    let mut at = 0;
-    while at < bytes.len() {
-        let end = match &bytes[at..] {
-            [b'(', b'*', ..] => block_end(bytes, at).unwrap_or_else(|| {
-                let span = Span::new(start + at, start + at + 2);
-                let holds_another = bytes[at + 2..].windows(2).any(|pair| pair == b"(*");
-                let help = if holds_another {
-                    "close it with `*)`; comments nest, so each `(*` inside it needs its own"
-                } else {
-                    "close it with `*)`"
-                };
-                let message = "this comment is never closed";
-                unclosed = Some(Diagnostic::new(Code::CommentNotClosed, span, message).help(help));
-                bytes.len()
-            }),
-            [b'/', b'/', ..] => line_end(bytes, at),
-            // Text in quotes holds no comments; it ends with its line at the latest.
-            [quote @ (b'\'' | b'"'), rest @ ..] => {
-                let stop = rest.iter().position(|b| b == quote || *b == b'\n').unwrap_or(rest.len());
-                at += (stop + 2).min(bytes.len() - at);
-                continue;
-            }
-            _ => {
-                at += 1;
-                continue;
-            }
-        };
-        blanked[at..end].fill(b' ');
-        at = end;
+    for Comment { span, kind } in scan(text) {
+        blanked[span.range()].fill(b' ');
+        if kind == Kind::Unclosed {
+            let help = if openings(text, span).next().is_some() {
+                "close it with `*)`; comments nest, so each `(*` inside it needs its own"
+            } else {
+                "close it with `*)`"
+            };
+            let opening = Span::new(start + span.start, start + span.start + 2);
+            let message = "this comment is never closed";
+            unclosed = Some(Diagnostic::new(Code::CommentNotClosed, opening, message).help(help));
+        }
     }
     (String::from_utf8_lossy(&blanked).into_owned(), unclosed)
 }
@@ -57,30 +85,21 @@ pub struct Comments {
 /// Looks for them.
 #[must_use]
 pub fn comments(text: &str) -> Comments {
-    let bytes = text.as_bytes();
     let mut found = Comments::default();
-    let mut at = 0;
-    while at < bytes.len() {
-        at = match &bytes[at..] {
-            [b'(', b'*', ..] => {
-                let end = block_end(bytes, at).unwrap_or(bytes.len());
-                let inner = bytes[at + 2..end].windows(2).enumerate().filter(|(_, pair)| *pair == b"(*");
-                found.nested.extend(inner.map(|(i, _)| Span::new(at + 2 + i, at + 4 + i)));
-                end
-            }
-            [b'/', b'/', ..] => {
-                let end = line_end(bytes, at);
-                found.to_line_end.push(Span::new(at, end));
-                end
-            }
-            [quote @ (b'\'' | b'"'), rest @ ..] => {
-                let stop = rest.iter().position(|b| b == quote || *b == b'\n').unwrap_or(rest.len());
-                at + (stop + 2).min(bytes.len() - at)
-            }
-            _ => at + 1,
-        };
+    for Comment { span, kind } in scan(text) {
+        match kind {
+            Kind::ToLineEnd => found.to_line_end.push(span),
+            Kind::Block | Kind::Unclosed => found.nested.extend(openings(text, span)),
+        }
     }
     found
+}
+
+/// The openings of comments inside a comment.
+fn openings(text: &str, comment: Span) -> impl Iterator<Item = Span> {
+    let inside = comment.start + 2;
+    let pairs = text.as_bytes()[inside..comment.end].windows(2).enumerate();
+    pairs.filter(|(_, pair)| *pair == b"(*").map(move |(i, _)| Span::new(inside + i, inside + i + 2))
 }
 
 fn block_end(bytes: &[u8], start: usize) -> Option<usize> {

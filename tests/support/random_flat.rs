@@ -6,27 +6,6 @@ use petril::semantics::{Kind, Role, Type, VarId};
 
 use super::token_game::{flat, variable};
 
-const FUNCTIONS: [Function; 18] = [
-    Function::And,
-    Function::Or,
-    Function::Xor,
-    Function::Add,
-    Function::Sub,
-    Function::Gt,
-    Function::Ge,
-    Function::Eq,
-    Function::Ne,
-    Function::Le,
-    Function::Lt,
-    Function::Shl,
-    Function::Shr,
-    Function::Rol,
-    Function::Ror,
-    Function::Mul,
-    Function::Div,
-    Function::Mod,
-];
-
 /// Decisions, made by numbers in their order; when there are no more, the first choice is taken.
 pub struct Choices<'a>(std::slice::Iter<'a, u32>);
 
@@ -191,8 +170,8 @@ impl Making<'_, '_> {
             }
             _ => {
                 // The large ones only where they are not too large.
-                let count = if ty.width <= 16 || self.choices.pick(20) == 0 { FUNCTIONS.len() } else { 15 };
-                let function = FUNCTIONS[self.choices.pick(count)];
+                let count = if ty.width <= 16 || self.choices.pick(20) == 0 { Function::ALL.len() } else { 15 };
+                let function = Function::ALL[self.choices.pick(count)];
                 let negated = ty.kind == Kind::Bits && self.choices.flag();
                 let operand_type = if function.shifts() && self.choices.flag() { self.choices.ty() } else { ty };
                 let operand = self.operand(operand_type);

@@ -91,7 +91,7 @@ impl<'p> Reference<'p> {
                 cells.iter().zip(&structure.members).for_each(|(c, member)| self.leaves(c, &member.shape, values));
             }
             (Cell::Parts(cells), Shape::Instance(id)) => {
-                for (cell, variable) in cells.iter().zip(&self.program.pous[&id].variables) {
+                for (cell, variable) in cells.iter().zip(&self.program.pous[id].variables) {
                     if stays(variable.section) {
                         self.leaves(cell, &variable.shape, values);
                     }
@@ -123,7 +123,7 @@ impl<'p> Reference<'p> {
                 Cell::Parts(members.map(|(i, m)| self.cell(&m.shape, given(i).unwrap_or(&m.initial))).collect())
             }
             Shape::Instance(id) => {
-                let variables = self.program.pous[&id].variables.iter();
+                let variables = self.program.pous[id].variables.iter();
                 Cell::Parts(variables.map(|v| self.cell(&v.shape, &v.initial)).collect())
             }
         }
@@ -172,7 +172,7 @@ impl<'p> Reference<'p> {
                 cells.iter_mut().zip(&structure.members).for_each(|(cell, member)| self.tick(cell, &member.shape));
             }
             Shape::Instance(id) => {
-                let pou = &self.program.pous[&id];
+                let pou = &self.program.pous[id];
                 let find = |name: &str| pou.variables.iter().position(|variable| variable.name == name);
                 if let (true, Some(clock), Some(running)) = (pou.is_library, find("CLOCK"), find("RUNNING")) {
                     let number = |position: usize| Type::TIME.number(one(&cells[position]));

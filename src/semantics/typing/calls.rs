@@ -239,18 +239,12 @@ impl Typing<'_> {
                 let message = format!("`{name}` is no output of `{block}`");
                 self.diagnostics.push(unfit(message, "only outputs are taken with `=>`; inputs are given with `:=`"));
             }
-            (Argument::Input { value, .. }, Section::Input) => {
+            (Argument::Input { .. } | Argument::Positional(_), Section::Input) => {
                 let scalar = self.whole(symbol, name, at)?;
-                let feed = match value {
-                    ast::Feed::Operand(operand) => self.feed(operand)?,
-                    ast::Feed::List(list) => self.feed_list(list, at),
+                let feed = match argument {
+                    Argument::Input { value, .. } => self.given(value, at)?,
+                    Argument::Positional(operand) | Argument::Output { target: operand, .. } => self.feed(operand)?,
                 };
-                self.input(&scalar, &feed, name, block);
-                call.inputs.push((position, feed));
-            }
-            (Argument::Positional(operand), Section::Input) => {
-                let scalar = self.whole(symbol, name, at)?;
-                let feed = self.feed(operand)?;
                 self.input(&scalar, &feed, name, block);
                 call.inputs.push((position, feed));
             }
@@ -306,22 +300,23 @@ impl Typing<'_> {
         });
     }
 
-    /// The result of a list in a call.
-    pub fn feed_list(&mut self, list: &[ast::Instruction], span: Span) -> Feed {
-        let undefined = self.types.fresh();
-        let (statements, ty) = self.sequence(list, undefined);
-        Feed { ty, source: FeedSource::List(statements), span }
+    /// What an input is given: an operand, or the result of a list. `None` has been reported.
+    pub fn given(&mut self, value: &ast::Feed, span: Span) -> Option<Feed> {
+        match value {
+            ast::Feed::Operand(operand) => self.feed(operand),
+            ast::Feed::List(list) => {
+                let undefined = self.types.fresh();
+                let (statements, ty) = self.sequence(list, undefined);
+                Some(Feed { ty, source: FeedSource::List(statements), span })
+            }
+        }
     }
 
     /// `EN := …` and `ENO => …`, which every unit has.
     pub fn enable(&mut self, argument: &Argument, name: &str, enable: &mut Enable) -> bool {
         match argument {
             Argument::Input { name: Name { span: argument_span, .. }, value } if name.eq_ignore_ascii_case("EN") => {
-                let feed = match value {
-                    ast::Feed::Operand(operand) => self.feed(operand),
-                    ast::Feed::List(list) => Some(self.feed_list(list, *argument_span)),
-                };
-                if let Some(feed) = feed {
+                if let Some(feed) = self.given(value, *argument_span) {
                     let boolean = self.types.boolean(NOWHERE);
                     self.same(boolean, feed.ty, feed.span, |_| "`EN` is a `BOOL`".to_owned());
                     enable.en = Some(feed);

@@ -14,11 +14,12 @@ use std::collections::BTreeMap;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
+use super::Context;
 use super::effect::{Leaves, effect};
+use super::flow::Flow;
 use super::inference::{Inference, Known, NOWHERE};
 use super::program::{Action, Condition, Feed, FeedSource, Operand, Statement, TypeId};
 use super::types::Type;
-use super::{Context, control_flow};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{self, Instruction, Literal, Name, Operation};
@@ -65,9 +66,7 @@ impl Typing<'_> {
     /// The unit's instruction list.
     fn list(&mut self) -> Vec<Statement> {
         let body: &[Instruction] = &self.context.pou.body;
-        let graph = control_flow::graph(body);
-        let reachable = control_flow::reachable(&graph);
-        let needs = needed(body, self.context);
+        let Flow { graph, effects, reachable, needed } = self.context.flow();
         let mut kept = 0;
         for instruction in body {
             self.positions.push(kept);
@@ -79,12 +78,12 @@ impl Typing<'_> {
         let mut statements = Vec::with_capacity(kept);
         for (i, instruction) in body.iter().enumerate() {
             // What comes from the line above is known before the line is looked at, so that the line gets the blame.
-            if i > 0 && needs[i] && graph.contains_edge(NodeIndex::new(i - 1), NodeIndex::new(i)) && reachable[i - 1] {
+            if i > 0 && needed[i] && graph.contains_edge(NodeIndex::new(i - 1), NodeIndex::new(i)) && reachable[i - 1] {
                 let _ = self.types.unify(after[i - 1], before[i]);
             }
             let (action, result) = self.instruction(instruction, before[i]);
             statements.extend(action.map(|action| Statement { action, span: instruction.span }));
-            after.push(match effect(instruction, self.context).1 {
+            after.push(match effects[i].1 {
                 Leaves::Same => before[i],
                 Leaves::Value => result,
                 Leaves::Nothing => self.types.fresh(),
@@ -92,7 +91,7 @@ impl Typing<'_> {
         }
         for edge in graph.edge_references() {
             let (from, to) = (edge.source().index(), edge.target().index());
-            if needs[to] && reachable[from] && to < body.len() && to != from + 1 {
+            if needed[to] && reachable[from] && to < body.len() && to != from + 1 {
                 self.join(after[from], before[to], &body[from], &body[to]);
             }
         }
@@ -223,24 +222,6 @@ fn conversion(left: &Known, right: &Known) -> Option<String> {
         true => "a comparison, like `NE`, makes a `BOOL` of other values".to_owned(),
         false => format!("convert one of them, like with `{from}_TO_{to}`"),
     })
-}
-
-/// Where the current result is needed: at these instructions, or behind them before it is replaced.
-pub fn needed(body: &[Instruction], context: &Context<'_>) -> Vec<bool> {
-    let graph = control_flow::graph(body);
-    let effects: Vec<_> = body.iter().map(|instruction| effect(instruction, context)).collect();
-    let mut needs: Vec<bool> = effects.iter().map(|(uses, _)| *uses).chain([false]).collect();
-    let mut work: Vec<usize> = (0..body.len()).filter(|&i| needs[i]).collect();
-    while let Some(i) = work.pop() {
-        for before in graph.neighbors_directed(NodeIndex::new(i), petgraph::Direction::Incoming) {
-            let before = before.index();
-            if !needs[before] && effects[before].1 == Leaves::Same {
-                needs[before] = true;
-                work.push(before);
-            }
-        }
-    }
-    needs
 }
 
 /// Names that are not declared, each reported at its first use.

@@ -2,9 +2,8 @@
 
 use super::Typing;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::semantics::inference::enumerated;
 use crate::semantics::program::{Index, Operand, Place, Root, Step, TypeId};
-use crate::semantics::shape::Shape;
+use crate::semantics::shape::{Scalar, Shape};
 use crate::semantics::symbols::Section;
 use crate::semantics::types::Kind;
 use crate::source::Span;
@@ -27,7 +26,7 @@ impl Typing<'_> {
         if let (false, Some(name)) = (is_variable, path.plain()) {
             let enumerators = context.project.enumerators(&name.text);
             if let [(enumeration, _)] = enumerators.as_slice() {
-                let scalar = enumerated(enumeration.clone());
+                let scalar = Scalar::enumerated(enumeration.clone());
                 let text = format!("{}#{}", enumeration.name, name.text);
                 let literal = Literal::Enumerated(enumeration.name.clone(), name.text.clone());
                 let constant = ast::Constant { text, literal: Some(literal), span: name.span };

@@ -10,7 +10,7 @@ use crate::semantics::program::{Action, Enable, Feed, FeedSource, Standard, Stan
 use crate::semantics::shape::Scalar;
 use crate::semantics::types::Type;
 use crate::source::Span;
-use crate::syntax::ast::{self, Argument, Arguments, Name, Verb, key};
+use crate::syntax::ast::{Argument, Arguments, Name, Verb, key};
 
 /// A standard function: what it does, and the names of its inputs. The last name is repeated with a number behind it if
 /// `many`.
@@ -141,10 +141,7 @@ impl Typing<'_> {
                         self.diagnostics.push(Diagnostic::new(Code::ParameterTwice, input.span, message));
                         continue;
                     }
-                    let feed = match value {
-                        ast::Feed::Operand(operand) => self.feed(operand),
-                        ast::Feed::List(list) => Some(self.feed_list(list, input.span)),
-                    };
+                    let feed = self.given(value, input.span);
                     broken |= feed.is_none();
                     if feeds.len() <= position {
                         feeds.resize_with(position + 1, || None);

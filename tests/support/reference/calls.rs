@@ -15,7 +15,7 @@ impl<'p> Reference<'p> {
         let given = self.result;
         let program = self.program;
         let (Callee::Instance(id, _) | Callee::Function(id)) = &call.callee;
-        let pou = &program.pous[&id];
+        let pou = &program.pous[id];
         let base = match &call.callee {
             Callee::Instance(_, place) => Some(self.location(frame, place)),
             Callee::Function(_) => None,

@@ -24,7 +24,7 @@ impl<'p> Reference<'p> {
                 }
                 (Step::Member(member), Shape::Instance(id)) => {
                     location.way.push(*member);
-                    self.program.pous[&id].variables[*member].shape.clone()
+                    self.program.pous[id].variables[*member].shape.clone()
                 }
                 (Step::Index(indices), Shape::Array { ranges, of }) => {
                     let mut position = 0;
