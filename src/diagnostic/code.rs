@@ -118,6 +118,8 @@ codes! {
     InstanceUnfit = "E0225",
     /// An in-out variable has no caller whose variable it could stand for.
     InOutWithoutCaller = "E0226",
+    /// Two addresses are one place on some controllers.
+    AddressesMayOverlap = "W0227",
 
     /// An operand is missing, or stands where none belongs.
     OperandCount = "E0302",

@@ -7,10 +7,11 @@ use super::symbols::{Section, Symbol, Symbols};
 use super::types::{Kind, Type};
 use super::uses;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
 use crate::syntax::ast::{Name, Path, Unit, key};
 
 /// The area of an address.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Area {
     /// `%I`
     Input,
@@ -18,6 +19,16 @@ pub enum Area {
     Output,
     /// `%M`
     Memory,
+}
+
+/// The address of a variable.
+#[derive(Clone, Debug)]
+pub struct Location {
+    pub area: Area,
+    /// As it was written.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
 }
 
 /// An address in the one spelling that all its spellings share: `%ix0.0` and `%I0.0` are `%I0.0`.
@@ -57,8 +68,8 @@ pub fn read(text: &str) -> Option<(Area, Option<Type>)> {
     numbers.then(|| (area, width.map(|width| Type::new(Kind::Bits, width))))
 }
 
-/// The area of a variable's address, if it fits the variable.
-pub fn fit(location: &Name, symbol: &Symbol, may_locate: bool) -> Result<Area, Diagnostic> {
+/// The address of a variable, if it fits the variable.
+pub fn fit(location: &Name, symbol: &Symbol, may_locate: bool) -> Result<Location, Diagnostic> {
     let unfit =
         |message: String, help: &str| Err(Diagnostic::new(Code::AddressUnfit, location.span, message).help(help));
     let Some((area, size)) = read(&location.text) else {
@@ -87,7 +98,7 @@ pub fn fit(location: &Name, symbol: &Symbol, may_locate: bool) -> Result<Area, D
             let message = format!("`{}` has {own}, but `{}` needs {needed}", location.text, symbol.name);
             unfit(message, "X stands for one bit, B for 8, W for 16, D for 32, L for 64")
         }
-        _ => Ok(area),
+        _ => Ok(Location { area, text: location.text.clone(), span: location.span }),
     }
 }
 
@@ -115,10 +126,8 @@ pub fn undeclared(unit: &Unit, globals: &mut Symbols) {
             shape: Some(Shape::Scalar(Scalar::new(ty.unwrap_or(Type::BOOL)))),
             initial: Value::Default,
             is_given: false,
-            area: Some(area),
+            location: Some(Location { area, text: path.root.text.clone(), span: path.root.span }),
         };
-        if let Ok(position) = globals.add(symbol) {
-            let _ = globals.locate(spelling(&path.root.text), position);
-        }
+        let _ = globals.add(symbol);
     }
 }

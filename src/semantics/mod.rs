@@ -17,6 +17,7 @@ mod initial;
 mod interval;
 mod library;
 mod needed;
+mod overlap;
 mod program;
 mod project;
 mod shape;
@@ -132,6 +133,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     let Some(entry) = entry else { return (None, diagnostics) };
     let needed = project.reachable(entry, &mut diagnostics);
     extent::check(&project, &needed, &mut diagnostics);
+    overlap::check(&project, &needed, &mut diagnostics);
     diagnostics.extend(without_caller(&project, entry));
     let mut pous = BTreeMap::new();
     let mut own = Vec::new();
@@ -255,7 +257,7 @@ fn variables(symbols: &Symbols) -> Vec<Variable> {
         // A broken declaration has been reported, and no program comes of it.
         shape: symbol.shape.clone().unwrap_or(Shape::Scalar(Scalar::new(Type::BOOL))),
         initial: symbol.initial.clone(),
-        area: symbol.area,
+        area: symbol.area(),
         span: symbol.span,
     });
     variables.collect()

@@ -31,7 +31,7 @@ pub(super) fn writes<'a>(context: &Context<'a>, section: Section) -> impl Iterat
             _ => own,
         };
         let is_instance = matches!(symbol.shape, Some(Shape::Instance(_)));
-        let is_input = section == Section::Input && symbol.area == Some(Area::Input);
+        let is_input = section == Section::Input && symbol.area() == Some(Area::Input);
         if (symbol.section == section || is_input) && !is_instance {
             found.push((path, symbol.span));
         }

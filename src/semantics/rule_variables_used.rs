@@ -29,9 +29,9 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
 fn complaint(symbol: &Symbol, written: Option<bool>) -> Option<Diagnostic> {
     symbol.shape.as_ref()?;
     let name = &symbol.name;
-    let is_input = symbol.section == Section::Input || symbol.area == Some(Area::Input);
+    let is_input = symbol.section == Section::Input || symbol.area() == Some(Area::Input);
     let is_instance = matches!(symbol.shape, Some(Shape::Instance(_)));
-    let is_output = symbol.section == Section::Output || symbol.area == Some(Area::Output);
+    let is_output = symbol.section == Section::Output || symbol.area() == Some(Area::Output);
     match written {
         None | Some(false) if is_output && !symbol.is_given => {
             let message = format!("the output `{name}` is never written");

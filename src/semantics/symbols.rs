@@ -1,8 +1,9 @@
 //! The names a program organisation unit declares.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-use super::address::{self, Area};
+use super::address::{self, Area, Location};
 use super::shape::{Shape, Value};
 use crate::source::Span;
 use crate::syntax::ast::key;
@@ -43,8 +44,15 @@ pub struct Symbol {
     pub initial: Value,
     /// Whether a value was written.
     pub is_given: bool,
-    /// The area of its address, if it has one.
-    pub area: Option<Area>,
+    /// Its address, if it has one.
+    pub location: Option<Location>,
+}
+
+impl Symbol {
+    /// The area of its address.
+    pub fn area(&self) -> Option<Area> {
+        self.location.as_ref().map(|location| location.area)
+    }
 }
 
 /// The declared names, in the order of the text. Of a name declared twice the first declaration counts.
@@ -57,23 +65,18 @@ pub struct Symbols {
 
 impl Symbols {
     /// Adds a symbol, unless there is one of this name: then this is its position.
-    pub fn add(&mut self, symbol: Symbol) -> Result<usize, usize> {
+    pub fn add(&mut self, symbol: Symbol) -> Result<(), usize> {
         let position = self.list.len();
         match self.by_key.entry(key(&symbol.name)) {
-            std::collections::btree_map::Entry::Occupied(first) => Err(*first.get()),
-            std::collections::btree_map::Entry::Vacant(entry) => {
+            Entry::Occupied(first) => Err(*first.get()),
+            Entry::Vacant(entry) => {
                 entry.insert(position);
+                if let Some(location) = &symbol.location {
+                    self.by_address.entry(address::spelling(&location.text)).or_insert(position);
+                }
                 self.list.push(symbol);
-                Ok(position)
+                Ok(())
             }
-        }
-    }
-
-    /// Gives a symbol an address, unless another one has it: then this is its position.
-    pub fn locate(&mut self, address: String, position: usize) -> Result<(), usize> {
-        match self.by_address.insert(address, position) {
-            Some(first) if first != position => Err(first),
-            _ => Ok(()),
         }
     }
 

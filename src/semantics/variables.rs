@@ -78,7 +78,7 @@ impl Variables<'_, '_> {
             shape,
             initial: Value::Default,
             is_given: false,
-            area: None,
+            location: None,
         });
     }
 
@@ -120,14 +120,14 @@ impl Variables<'_, '_> {
                 shape: shaped.as_ref().map(|(shape, _)| shape.clone()),
                 initial: value.clone().unwrap_or(Value::Default),
                 is_given: declaration.initial.is_some(),
-                area: None,
+                location: None,
             };
             if let Section::External(position) = section {
                 self.external(&mut symbol, position);
             }
             if let Some(location) = &declaration.location {
                 match address::fit(location, &symbol, self.may_locate || block.kind == VarKind::Global) {
-                    Ok(area) => symbol.area = Some(area),
+                    Ok(location) => symbol.location = Some(location),
                     Err(diagnostic) => self.push(diagnostic),
                 }
             }
@@ -173,33 +173,19 @@ impl Variables<'_, '_> {
 
     fn add(&mut self, symbol: Symbol, declaration: &Declaration) {
         let (span, name) = (symbol.span, symbol.name.clone());
-        match self.symbols.add(symbol) {
-            Ok(position) => {
-                if let Some(location) = &declaration.location
-                    && let Err(first) = self.symbols.locate(address::spelling(&location.text), position)
-                {
-                    let first = &self.symbols.list()[first];
-                    let message = format!("`{name}` has the address of `{}`", first.name);
-                    let diagnostic = Diagnostic::new(Code::AddressShared, location.span, message)
-                        .also(first.span, "declared here")
-                        .help("use one variable; two names for one place are not modelled");
-                    self.push(diagnostic);
-                }
-            }
-            // Of a declaration that cannot be read, nobody knows which words are names.
-            Err(_) if declaration.spec.is_none() => {}
-            Err(first) => {
-                let first = &self.symbols.list()[first];
-                let what = match first.section {
-                    Section::Result => "the function's result is declared here",
-                    _ => "first declared here",
-                };
-                let diagnostic = Diagnostic::new(Code::NameDeclaredTwice, span, format!("`{name}` is declared twice"))
-                    .here("declared again")
-                    .also(first.span, what)
-                    .help("remove or rename one of them");
-                self.push(diagnostic);
-            }
+        let Err(first) = self.symbols.add(symbol) else { return };
+        // Of a declaration that cannot be read, nobody knows which words are names.
+        if declaration.spec.is_some() {
+            let first = &self.symbols.list()[first];
+            let what = match first.section {
+                Section::Result => "the function's result is declared here",
+                _ => "first declared here",
+            };
+            let diagnostic = Diagnostic::new(Code::NameDeclaredTwice, span, format!("`{name}` is declared twice"))
+                .here("declared again")
+                .also(first.span, what)
+                .help("remove or rename one of them");
+            self.push(diagnostic);
         }
     }
 }
