@@ -123,6 +123,9 @@ fn an_interval_is_read_in_the_ways_of_the_tools() {
     ] {
         let text = PROJECT.replace("T#20ms", interval);
         assert_eq!(read(&text, None).0.unwrap().scan_time, scan_time, "{interval}");
+        let printed = parse(&Source::new("project", text)).0.to_string();
+        let task = printed.find("INTERVAL := T#");
+        assert!(task.is_some(), "printed as a text it says the same: {printed}");
     }
     let unfit = PROJECT.replace("T#20ms", "5 apples");
     assert!(said(&unfit).contains(&(Code::TaskUnfit, "5 apples".to_owned())));

@@ -228,13 +228,13 @@ fn subranges_and_enumerations_have_their_limits() {
 }
 
 #[test]
-fn enumerations_are_as_wide_as_what_is_copied_to_them() {
+fn enumerations_are_as_wide_as_their_values() {
     let text = "TYPE Colour : (Red, Green, Blue); END_TYPE\n\
                 PROGRAM p VAR_INPUT i : Colour; END_VAR VAR copy, own, next : Colour; END_VAR VAR_OUTPUT q : Colour; END_VAR\n\
-                LD i\nST copy\nLD Blue\nST own\nLD own\nST next\nST q\nEND_PROGRAM";
+                LD i\nST copy\nLD Green\nST own\nLD own\nSEL(G := FALSE, IN0 := i, IN1 := own)\nST next\nLD Green\nST q\nEND_PROGRAM";
     let program = flat(text);
     let bits = |name: &str| program.find(name).map(|id| program.variable(id).bits);
-    assert_eq!(["i", "copy", "own", "next", "q"].map(bits), [8, 8, 2, 2, 2].map(Some));
+    assert_eq!(["i", "copy", "own", "next", "q"].map(bits), [2, 2, 1, 2, 1].map(Some));
 }
 
 #[test]

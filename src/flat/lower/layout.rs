@@ -155,8 +155,8 @@ impl Lowering<'_> {
 
 fn variable(leaf: &Leaf, scalar: &Scalar, initial: &Value) -> Variable {
     let initial = pattern(scalar, initial);
-    // An enumeration has few values, but an input may be none of them, and be copied. What is not is narrowed.
-    let bits = scalar.ty.width;
+    // An enumeration has few values, and no way leads to another: it is given constants, copies, and inputs with its values.
+    let bits = scalar.enumeration.as_ref().map_or(scalar.ty.width, |e| bits_for(e.values.len() as u64 - 1));
     Variable { name: leaf.name.clone(), role: leaf.role, ty: scalar.ty, bits, initial, span: Some(leaf.span) }
 }
 

@@ -50,5 +50,6 @@ fn interval(Text { text, span }: Text) -> Option<Constant> {
         _ => upper,
     };
     let is_name = !duration.contains('#');
-    (!is_name).then(|| Constant { literal: Literal::read(&duration), text, span })
+    let literal = Literal::read(&duration);
+    (!is_name).then(|| Constant { text: if literal.is_some() { duration } else { text }, literal, span })
 }
