@@ -112,6 +112,23 @@ fn a_chosen_unit_is_checked_without_the_rest() {
 }
 
 #[test]
+fn a_value_without_members_is_the_value_of_the_type() {
+    let project = "<project xmlns='http://www.plcopen.org/xml/tc6_0201'><types><dataTypes><dataType name='R'><baseType><struct>\
+        <variable name='k'><type><BYTE/></type><initialValue><simpleValue value='3'/></initialValue></variable>\
+        </struct></baseType></dataType></dataTypes><pous><pou name='p' pouType='program'><interface><localVars>\
+        <variable name='r'><type><derived name='R'/></type><initialValue><structValue/></initialValue></variable>\
+        <variable name='a'><type><array><dimension lower='0' upper='1'/><baseType><derived name='R'/></baseType></array></type>\
+        <initialValue><arrayValue><value><structValue><value member='k'><simpleValue value='5'/></value></structValue></value>\
+        <value><structValue></structValue></value></arrayValue></initialValue></variable>\
+        </localVars></interface><body><IL>LD r.k\nST a[1].k</IL></body></pou></pous></types></project>";
+    let program = read(project, None).0.unwrap();
+    let initial: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
+    assert_eq!(initial, [3, 5, 3]);
+    let printed = parse(&Source::new("project", project)).0.to_string();
+    assert_eq!(content(&read(&printed, None).0.unwrap()), content(&program), "{printed}");
+}
+
+#[test]
 fn an_interval_is_read_in_the_ways_of_the_tools() {
     for (interval, scan_time) in [
         ("T#20ms", Some(20)),

@@ -28,7 +28,12 @@ impl Reader<'_> {
             "arrayValue" => InitialKind::List(parts.filter_map(|part| self.item(part, depth)).collect()),
             "structValue" => {
                 let member = |part| Some((self.required(part, "member")?, self.value(part, depth + 1)?));
-                InitialKind::Structure(parts.filter_map(member).collect())
+                let members: Vec<_> = parts.filter_map(member).collect();
+                // Without members every one of them has what its type says.
+                if members.is_empty() {
+                    return None;
+                }
+                InitialKind::Structure(members)
             }
             _ => return self.simple(node),
         };
