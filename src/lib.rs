@@ -44,6 +44,7 @@ pub mod flat;
 pub mod interpret;
 pub mod logic;
 pub mod net;
+mod rows;
 pub mod semantics;
 pub mod source;
 pub mod syntax;

@@ -9,6 +9,7 @@ use fixedbitset::FixedBitSet;
 use super::budget::Stop;
 use super::space::Failure;
 use super::store::Store;
+use crate::rows::Rows;
 
 /// A graph of states numbered in breadth-first order, so that a state's number never exceeds that of a state farther away.
 pub struct Graph {
@@ -28,36 +29,8 @@ pub struct Graph {
     /// initial step.
     pub(super) failures: Vec<(Option<u32>, Failure)>,
     pub(super) stop: Stop,
-    pub(super) members: OnceLock<Rows>,
-    pub(super) backward: OnceLock<Rows>,
-}
-
-/// Lists of numbers, one after another.
-pub(super) struct Rows {
-    starts: Vec<u64>,
-    numbers: Vec<u32>,
-}
-
-impl Rows {
-    /// The lists that hold, for each key below `keys`, the numbers paired with it, in the order of the pairs.
-    fn group(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let mut starts = vec![0_u64; keys + 1];
-        pairs.clone().for_each(|(key, _)| starts[key as usize + 1] += 1);
-        for key in 0..keys {
-            starts[key + 1] += starts[key];
-        }
-        let mut next = starts.clone();
-        let mut numbers = vec![0; starts[keys] as usize];
-        for (key, number) in pairs {
-            numbers[next[key as usize] as usize] = number;
-            next[key as usize] += 1;
-        }
-        Self { starts, numbers }
-    }
-
-    fn get(&self, key: u32) -> &[u32] {
-        &self.numbers[self.starts[key as usize] as usize..self.starts[key as usize + 1] as usize]
-    }
+    pub(super) members: OnceLock<Rows<u32>>,
+    pub(super) backward: OnceLock<Rows<u32>>,
 }
 
 impl Graph {
@@ -123,16 +96,16 @@ impl Graph {
     /// The states that have a row, ascending. The lists are built when first asked for.
     #[must_use]
     pub fn members(&self, row: u32) -> &[u32] {
-        let pairs = || self.row_of.iter().zip(0..).map(|(&row, state)| (row, state));
-        self.members.get_or_init(|| Rows::group(self.rows(), pairs())).get(row)
+        let pairs = || self.row_of.iter().zip(0..).map(|(&row, state)| (row as usize, state));
+        &self.members.get_or_init(|| Rows::group(self.rows(), pairs()))[row as usize]
     }
 
     /// The rows that hold a state, once for each step. The lists are built when first asked for.
     #[must_use]
     pub fn rows_to(&self, id: u32) -> &[u32] {
         let rows = 0..self.rows() as u32;
-        let pairs = || rows.clone().flat_map(|row| self.row(row).iter().map(move |&target| (target, row)));
-        self.backward.get_or_init(|| Rows::group(self.len(), pairs())).get(id)
+        let pairs = || rows.clone().flat_map(|row| self.row(row).iter().map(move |&target| (target as usize, row)));
+        &self.backward.get_or_init(|| Rows::group(self.len(), pairs()))[id as usize]
     }
 
     /// States not all of whose successors are known: not expanded, or with a step that fails.
