@@ -172,7 +172,7 @@ fn names_of_nodes_are_unique() {
         let mut plant = plant(two_devices);
         assert_eq!(with(&mut plant, net, "o"), expected, "{net}");
         let system = System::new(program(), plant);
-        let mut places: Vec<&str> = system.net.places().iter().map(|place| place.name.as_str()).collect();
+        let mut places: Vec<&str> = system.net.places().map(|place| place.name).collect();
         places.sort_unstable();
         assert!(places.windows(2).all(|pair| pair[0] != pair[1]), "{places:?}");
     }

@@ -34,8 +34,8 @@ fn net(name: &'static str) -> impl Strategy<Value = Net> {
                 places.into_iter().zip(marked).map(|(name, marked)| builder.place(name, marked)).collect();
             for (name, lists) in transitions.into_iter().zip(lists) {
                 // Positions beyond the last place mean no arc, so that lists are of any length.
-                let list = |i: usize| lists[i].iter().filter_map(|&place| ids.get(place).copied()).collect();
-                builder.transition(name, Arcs { consume: list(0), produce: list(1), read: list(2) });
+                let list = |i: usize| lists[i].iter().filter_map(|&place| ids.get(place).copied()).collect::<Vec<_>>();
+                builder.transition(name, Arcs { consume: &list(0), produce: &list(1), read: &list(2) });
             }
             builder.build()
         },
@@ -59,7 +59,7 @@ proptest! {
     #[test]
     fn pnml_keeps_every_net(net in net(AWKWARD_IN_XML)) {
         // A token put where one is read makes an arc of weight 2, which is written, but not read.
-        let doubled = net.transitions().iter().any(|t| t.arcs.read.iter().any(|place| t.arcs.produce.contains(place)));
+        let doubled = net.transitions().any(|t| t.arcs.read.iter().any(|place| t.arcs.produce.contains(place)));
         prop_assume!(!doubled);
         prop_assert_eq!(from_pnml(&pnml::write(&net, None, None)), net);
     }
@@ -78,7 +78,7 @@ proptest! {
 fn a_transition_that_would_double_a_token_has_an_arc_of_weight_2() {
     let mut builder = Builder::new("n");
     let p = builder.place("p", true);
-    builder.transition("t", Arcs { consume: vec![], produce: vec![p], read: vec![p] });
+    builder.transition("t", Arcs { consume: &[], produce: &[p], read: &[p] });
     let net = builder.build();
     let text = pnml::write(&net, None, None);
     assert_eq!(text.matches("<arc").count(), 2);

@@ -26,17 +26,17 @@ struct Naive {
 }
 
 fn tokens(net: &Net) -> Tokens {
-    net.places().iter().map(|place| u8::from(place.marked)).collect()
+    net.places().map(|place| u8::from(place.marked)).collect()
 }
 
 /// Fires a transition; `None` if it is not enabled.
 fn fire(net: &Net, from: &Tokens, transition: usize) -> Option<Tokens> {
-    let arcs = &net.transitions()[transition].arcs;
+    let arcs = net.arcs(TransitionId::at(transition));
     let mut to = from.clone();
-    for place in arcs.consume.iter().chain(&arcs.read) {
+    for place in arcs.preset() {
         to[place.index()] = to[place.index()].checked_sub(1)?;
     }
-    arcs.produce.iter().chain(&arcs.read).for_each(|place| to[place.index()] += 1);
+    arcs.produce.iter().chain(arcs.read).for_each(|place| to[place.index()] += 1);
     Some(to)
 }
 

@@ -130,7 +130,7 @@ fn assert_legible(svg: &str) -> Shapes {
 /// Arcs and read arcs of some transitions.
 fn arcs(system: &System, of: impl Fn(TransitionRole) -> bool) -> (usize, usize) {
     let ids = system.net.transition_ids().filter(|id| of(system.transitions[id.index()]));
-    ids.map(|id| &system.net.transition(id).arcs)
+    ids.map(|id| system.net.arcs(id))
         .fold((0, 0), |(arcs, reads), a| (arcs + a.consume.len() + a.produce.len(), reads + a.read.len()))
 }
 
@@ -150,8 +150,8 @@ fn the_subnet_of_every_instruction_is_drawn_whole_and_legible() {
         let transitions: Vec<_> = system.transitions_of(TransitionRole::Line(line)).collect();
         let mut places: Vec<_> = transitions
             .iter()
-            .map(|&id| &system.net.transition(id).arcs)
-            .flat_map(|arcs| arcs.consume.iter().chain(&arcs.produce).chain(&arcs.read))
+            .map(|&id| system.net.arcs(id))
+            .flat_map(|arcs| arcs.consume.iter().chain(arcs.produce).chain(arcs.read))
             .collect();
         places.sort_unstable();
         places.dedup();

@@ -56,8 +56,8 @@ fn assert_safe(system: &System) {
             assert_eq!(once.len(), all.len(), "{} asks twice for one thing", transition.name);
             once
         };
-        let arcs = &transition.arcs;
-        let (consume, produce, read) = (of(&arcs.consume), of(&arcs.produce), of(&arcs.read));
+        let arcs = transition.arcs;
+        let (consume, produce, read) = (of(arcs.consume), of(arcs.produce), of(arcs.read));
         assert_eq!(consume, produce, "{}", transition.name);
         assert!(consume.is_disjoint(&read), "{} can never fire", transition.name);
         assert!(consume.contains(&0) || read.contains(&0), "{} is outside of control", transition.name);
@@ -66,11 +66,11 @@ fn assert_safe(system: &System) {
         let once: BTreeSet<&str> = names.iter().copied().collect();
         assert_eq!(once.len(), names.len(), "a name stands for two nodes");
     };
-    names(system.net.places().iter().map(|place| place.name.as_str()).collect());
-    names(system.net.transitions().iter().map(|transition| transition.name.as_str()).collect());
+    names(system.net.places().map(|place| place.name).collect());
+    names(system.net.transitions().map(|transition| transition.name).collect());
     // Every place of control but `idle` can be entered, and every one can be left.
     let entered: BTreeSet<PlaceId> =
-        system.net.transitions().iter().flat_map(|transition| &transition.arcs.produce).copied().collect();
+        system.net.transitions().flat_map(|transition| transition.arcs.produce).copied().collect();
     for place in system.net.place_ids() {
         let role = system.places[place.index()];
         if role.is_control() {

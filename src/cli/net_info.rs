@@ -46,15 +46,15 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         let states: Vec<&[u64]> = graph.path_to(state).iter().map(|&id| graph.state(id)).collect();
         let mut run = firing_trace(&space, &states, None).firings;
         run.push(transition);
-        let run: Vec<&str> = run.iter().map(|&id| net.transition(id).name.as_str()).collect();
-        let place = &net.place(place).name;
+        let run: Vec<&str> = run.iter().map(|&id| net.transition(id).name).collect();
+        let place = net.place(place).name;
         document["safe"] = json!(false);
         document["second_token"] = json!({ "place": place, "firings": run });
         let text = format!("safe         no: `{place}` gets a second token by {}\n", run.join(", "));
         (text + "markings     not counted, since the net is not safe\n", SUCCESS)
     } else if *graph.stop() == Stop::Complete {
         let behaviour = behaviour(&space, &graph);
-        let dead: Vec<&str> = behaviour.dead.iter().map(|&id| net.transition(id).name.as_str()).collect();
+        let dead: Vec<&str> = behaviour.dead.iter().map(|&id| net.transition(id).name).collect();
         document["safe"] = json!(true);
         document["markings"] = json!(graph.len());
         document["firings"] = json!(graph.steps());

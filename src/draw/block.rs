@@ -96,7 +96,7 @@ impl<'a> Block<'a> {
 
     /// How wide its columns have to be.
     pub fn widths(&self) -> Widths {
-        let name = |place: &PlaceId| width(&self.system.net.place(*place).name);
+        let name = |place: &PlaceId| width(self.system.net.place(*place).name);
         let widest = |widths: &mut dyn Iterator<Item = f64>| widths.fold(0.0, f64::max);
         Widths {
             left: widest(&mut self.left.iter().map(name)),
@@ -144,7 +144,7 @@ impl<'a> Block<'a> {
                 let at = positions[place];
                 sheet.place(at, style, net.place(*place).marked);
                 let label = At { x: at.x + direction * (RADIUS + LABEL_GAP), y: at.y };
-                sheet.text(label, anchor, &net.place(*place).name, false);
+                sheet.text(label, anchor, net.place(*place).name, false);
             }
         }
     }
@@ -187,8 +187,8 @@ enum Arc {
 
 /// The arcs of a transition.
 fn arcs(system: &System, id: TransitionId) -> impl Iterator<Item = (PlaceId, Arc)> {
-    let arcs = &system.net.transition(id).arcs;
-    let lists = [(&arcs.consume, Arc::Consume), (&arcs.read, Arc::Read), (&arcs.produce, Arc::Produce)];
+    let arcs = system.net.arcs(id);
+    let lists = [(arcs.consume, Arc::Consume), (arcs.read, Arc::Read), (arcs.produce, Arc::Produce)];
     lists.into_iter().flat_map(|(places, arc)| places.iter().map(move |&place| (place, arc)))
 }
 
@@ -202,11 +202,11 @@ fn rim(place: At, port: At) -> At {
 /// What stands in the box of a transition: the values under which it fires; the rest of its name says where it belongs,
 /// which is seen.
 fn caption(system: &System, id: TransitionId) -> String {
-    let name = &system.net.transition(id).name;
+    let name = system.net.transition(id).name;
     let inside = name.split_once('[').map_or("", |(_, rest)| rest.strip_suffix(']').unwrap_or(rest));
     match system.transitions[id.index()] {
         TransitionRole::Line(_) => inside.to_owned(),
         TransitionRole::Copy { .. } => inside.split(" from ").next().unwrap_or_default().replace("->", "→"),
-        TransitionRole::Block | TransitionRole::Unblock | TransitionRole::Plant { .. } => name.clone(),
+        TransitionRole::Block | TransitionRole::Unblock | TransitionRole::Plant { .. } => name.to_owned(),
     }
 }

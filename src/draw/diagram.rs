@@ -90,7 +90,7 @@ fn steps(system: &System, wanted: impl Fn(PlaceRole) -> bool) -> Vec<Piece<'_>> 
             PlaceRole::Line(line) => system.program.code.get(line).map(|code| system.program.text(code.instruction)),
             _ => None,
         };
-        let arcs = transitions.iter().flat_map(|&id| &system.net.transition(id).arcs.produce);
+        let arcs = transitions.iter().flat_map(|&id| system.net.arcs(id).produce);
         let mut targets: Vec<PlaceId> = arcs.copied().filter(|&place| control.of_place(place).is_some()).collect();
         targets.sort_unstable();
         targets.dedup();
@@ -167,7 +167,7 @@ impl Piece<'_> {
         match &self.content {
             Content::Step { block, text, .. } => block.widths().max(Widths { left: width(text), ..Widths::default() }),
             Content::Component(block) => block.widths(),
-            Content::Bit([zero, _]) => Widths { left: width(&system.net.place(*zero).name), ..Widths::default() },
+            Content::Bit([zero, _]) => Widths { left: width(system.net.place(*zero).name), ..Widths::default() },
         }
     }
 
@@ -199,7 +199,7 @@ impl Piece<'_> {
                     let place = system.net.place(place);
                     sheet.place(At { x, y: at.y }, PlaceStyle::Own, place.marked);
                     let label = At { x: x + direction * (RADIUS + LABEL_GAP), y: at.y };
-                    sheet.text(label, anchor, &place.name, false);
+                    sheet.text(label, anchor, place.name, false);
                 }
             }
         }

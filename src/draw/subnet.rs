@@ -20,10 +20,10 @@ pub fn subnet(system: &System, line: usize, title: Option<&str>) -> String {
     let transitions: Vec<_> = system.transitions_of(TransitionRole::Line(line)).collect();
     let own = system.place(PlaceRole::Line(line));
     if system.moves(own).len() < transitions.len() {
-        return diagram::line(system, line, title.unwrap_or(&system.net.place(own).name));
+        return diagram::line(system, line, title.unwrap_or(system.net.place(own).name));
     }
-    let arcs = transitions.iter().map(|&id| &system.net.transition(id).arcs);
-    let mut targets: Vec<PlaceId> = arcs.flat_map(|arcs| &arcs.produce).copied().collect();
+    let arcs = transitions.iter().map(|&id| system.net.arcs(id));
+    let mut targets: Vec<PlaceId> = arcs.flat_map(|arcs| arcs.produce).copied().collect();
     targets.retain(|place| matches!(system.places[place.index()], PlaceRole::Line(_)));
     // The next line last, below; a jump's target on the way there.
     targets.sort_by_key(|place| (system.places[place.index()] == PlaceRole::Line(line + 1), *place));
@@ -40,5 +40,5 @@ pub fn subnet(system: &System, line: usize, title: Option<&str>) -> String {
     }
     block.draw(&mut sheet, At { x: MARGIN, y: top }, widths, |_| Some(PlaceStyle::Own));
     let total = widths.total().max(title.map_or(0.0, width)) + 2.0 * MARGIN;
-    sheet.finish(total, top + block.height() + RADIUS + MARGIN, title.unwrap_or(&system.net.place(own).name))
+    sheet.finish(total, top + block.height() + RADIUS + MARGIN, title.unwrap_or(system.net.place(own).name))
 }

@@ -33,16 +33,16 @@ pub fn write(net: &Net) -> String {
     let mut out = format!("digraph \"{}\" {{\n", escaped(net.name()));
     out += "  node [fontname=\"Helvetica\", fontsize=10];\n";
     out += "  node [shape=circle, margin=0.02];\n";
-    for (i, place) in net.places().iter().enumerate() {
+    for (i, place) in net.places().enumerate() {
         let token = if place.marked { "●\\n" } else { "" };
-        let _ = writeln!(out, "  p{i} [label=\"{token}{}\"];", escaped(&place.name));
+        let _ = writeln!(out, "  p{i} [label=\"{token}{}\"];", escaped(place.name));
     }
     out += "  node [shape=box, height=0.3];\n";
-    for (i, transition) in net.transitions().iter().enumerate() {
-        let _ = writeln!(out, "  t{i} [label=\"{}\"];", escaped(&transition.name));
+    for (i, transition) in net.transitions().enumerate() {
+        let _ = writeln!(out, "  t{i} [label=\"{}\"];", escaped(transition.name));
     }
-    for (i, transition) in net.transitions().iter().enumerate() {
-        let arcs = &transition.arcs;
+    for (i, transition) in net.transitions().enumerate() {
+        let arcs = transition.arcs;
         arcs.consume.iter().for_each(|place| _ = writeln!(out, "  p{} -> t{i};", place.index()));
         arcs.read.iter().for_each(|place| _ = writeln!(out, "  p{} -> t{i} [arrowhead=dot];", place.index()));
         arcs.produce.iter().for_each(|place| _ = writeln!(out, "  t{i} -> p{};", place.index()));

@@ -68,11 +68,11 @@ impl Draft {
         let spans = self.places.iter().map(|place| place.span).collect();
         let places: Vec<PlaceId> =
             self.places.into_iter().map(|place| builder.place(place.name, place.marked)).collect();
-        let ids = |arcs: &[Arc]| arcs.iter().map(|arc| places[arc.place]).collect();
+        let ids = |arcs: &[Arc]| arcs.iter().map(|arc| places[arc.place]).collect::<Vec<PlaceId>>();
         let transitions = self.transitions.iter().map(|transition| transition.span).collect();
         for transition in self.transitions {
             let DraftTransition { name, consume, produce, read, .. } = transition;
-            builder.transition(name, Arcs { consume: ids(&consume), produce: ids(&produce), read: ids(&read) });
+            builder.transition(name, Arcs { consume: &ids(&consume), produce: &ids(&produce), read: &ids(&read) });
         }
         Located { net: builder.build(), places: spans, transitions }
     }

@@ -26,22 +26,20 @@ impl<'n> MarkingSpace<'n> {
     #[must_use]
     pub fn new(net: &'n Net) -> Self {
         let mut dependents = vec![0_usize; net.places().len()];
-        for arcs in net.transitions().iter().map(|transition| &transition.arcs) {
-            arcs.consume.iter().chain(&arcs.read).for_each(|place| dependents[place.index()] += 1);
-        }
+        let needs = net.transition_ids().flat_map(|id| net.arcs(id).preset());
+        needs.for_each(|place| dependents[place.index()] += 1);
         let mut space =
             Self { net, transitions: Vec::new(), keyed: vec![Vec::new(); dependents.len()], unkeyed: Vec::new() };
         for id in net.transition_ids() {
-            let arcs = &net.transition(id).arcs;
-            let preset = || arcs.consume.iter().chain(&arcs.read);
-            match preset().min_by_key(|place| dependents[place.index()]) {
+            let arcs = net.arcs(id);
+            match arcs.preset().min_by_key(|place| dependents[place.index()]) {
                 Some(key) => space.keyed[key.index()].push(id),
                 None => space.unkeyed.push(id),
             }
             space.transitions.push(Masks {
-                needs: masks(preset()),
-                takes: masks(arcs.consume.iter()),
-                puts: masks(arcs.produce.iter()),
+                needs: masks(arcs.preset()),
+                takes: masks(arcs.consume.iter().copied()),
+                puts: masks(arcs.produce.iter().copied()),
             });
         }
         space
@@ -107,7 +105,7 @@ impl StateSpace for MarkingSpace<'_> {
 }
 
 /// The bits of a set of places, word by word.
-fn masks<'a>(places: impl Iterator<Item = &'a PlaceId>) -> Vec<(usize, u64)> {
+fn masks(places: impl Iterator<Item = PlaceId>) -> Vec<(usize, u64)> {
     let mut masks: Vec<(usize, u64)> = Vec::new();
     for place in places {
         let (word, bit) = (place.index() / 64, 1 << (place.index() % 64));

@@ -225,7 +225,7 @@ impl Binder<'_> {
             (View::Scan, _) => self.only_in_transition_view("a place of the net", span),
             (View::Transition, Some(place)) => Bound::Marked(place),
             (View::Transition, None) => {
-                let names = net.places().iter().map(|place| place.name.as_str());
+                let names = net.places().map(|place| place.name);
                 let message = format!("the net has no place `{name}`");
                 self.unknown(message, span, name, names)
             }
@@ -239,7 +239,7 @@ impl Binder<'_> {
             (View::Scan, _) => self.only_in_transition_view("a transition of the net", span),
             (View::Transition, Some(transition)) => Bound::Enabled(transition),
             (View::Transition, None) => {
-                let names = net.transitions().iter().map(|transition| transition.name.as_str());
+                let names = net.transitions().map(|transition| transition.name);
                 let message = format!("the net has no transition `{name}`");
                 self.unknown(message, span, name, names)
             }

@@ -1,17 +1,6 @@
 //! Nets are built place by place and transition by transition, then never changed.
 
-use super::{Net, Place, PlaceId, Transition, TransitionId};
-
-/// The arcs of a transition.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Arcs {
-    /// Preset without read places: a token is taken from each.
-    pub consume: Vec<PlaceId>,
-    /// Postset: a token is put on each.
-    pub produce: Vec<PlaceId>,
-    /// Places that must be marked and stay so.
-    pub read: Vec<PlaceId>,
-}
+use super::{Arcs, Net, PlaceId, TransitionId};
 
 /// Builds a [`Net`].
 ///
@@ -19,44 +8,56 @@ pub struct Arcs {
 #[derive(Clone, Debug)]
 pub struct Builder {
     net: Net,
+    /// What the transition in the making does with its places; kept for its memory.
+    uses: Vec<(PlaceId, Use)>,
 }
+
+/// What a transition does with a place, as bits.
+type Use = u8;
+const CONSUME: Use = 1;
+const PRODUCE: Use = 2;
+const READ: Use = 4;
+/// The token is taken and put back.
+const LOOP: Use = CONSUME | PRODUCE;
 
 impl Builder {
     /// An empty net.
     pub fn new(name: impl Into<String>) -> Self {
-        Self { net: Net { name: name.into(), places: Vec::new(), transitions: Vec::new() } }
+        Self { net: Net::empty(name.into()), uses: Vec::new() }
     }
 
     /// Adds a place.
-    pub fn place(&mut self, name: impl Into<String>, marked: bool) -> PlaceId {
-        self.net.places.push(Place { name: name.into(), marked });
-        PlaceId::at(self.net.places.len() - 1)
+    pub fn place(&mut self, name: impl AsRef<str>, marked: bool) -> PlaceId {
+        self.net.place_names.push(name.as_ref());
+        self.net.marked.push(marked);
+        PlaceId::at(self.net.marked.len() - 1)
     }
 
     /// The name of a place that has been added.
     #[must_use]
     pub fn place_name(&self, place: PlaceId) -> &str {
-        &self.net.place(place).name
+        self.net.place_names.get(place.index())
     }
 
     /// Adds a transition. A place it both takes from and puts to becomes a place it reads; a place it reads and also
     /// takes from is only taken from, since that asks for the same token.
-    pub fn transition(&mut self, name: impl Into<String>, arcs: Arcs) -> TransitionId {
-        let sorted = |mut list: Vec<PlaceId>| {
-            list.sort_unstable();
-            list.dedup();
-            list
-        };
-        let has = |list: &[PlaceId], place: &PlaceId| list.binary_search(place).is_ok();
-        let (mut consume, mut produce, mut read) = (sorted(arcs.consume), sorted(arcs.produce), sorted(arcs.read));
-        read.retain(|place| !has(&consume, place));
-        let loops: Vec<PlaceId> = consume.iter().copied().filter(|place| has(&produce, place)).collect();
-        consume.retain(|place| !has(&loops, place));
-        produce.retain(|place| !has(&loops, place));
-        read.extend(loops);
-        let read = sorted(read);
-        self.net.transitions.push(Transition { name: name.into(), arcs: Arcs { consume, produce, read } });
-        TransitionId::at(self.net.transitions.len() - 1)
+    pub fn transition(&mut self, name: impl AsRef<str>, arcs: Arcs<'_>) -> TransitionId {
+        self.uses.clear();
+        for (places, this) in [(arcs.consume, CONSUME), (arcs.produce, PRODUCE), (arcs.read, READ)] {
+            self.uses.extend(places.iter().map(|&place| (place, this)));
+        }
+        self.uses.sort_unstable_by_key(|&(place, _)| place);
+        self.uses.dedup_by(|(later, other), (place, uses)| {
+            let is_same = later == place;
+            *uses |= if is_same { *other } else { 0 };
+            is_same
+        });
+        self.net.transition_names.push(name.as_ref());
+        self.net.arcs.push(
+            places(&self.uses, |uses| uses & LOOP == CONSUME),
+            places(&self.uses, |uses| uses & LOOP == PRODUCE),
+            places(&self.uses, |uses| uses & LOOP == LOOP || uses & (READ | CONSUME) == READ),
+        )
     }
 
     /// The finished net.
@@ -64,4 +65,9 @@ impl Builder {
     pub fn build(self) -> Net {
         self.net
     }
+}
+
+/// The places of certain uses.
+fn places(uses: &[(PlaceId, Use)], is_wanted: impl Fn(Use) -> bool) -> impl Iterator<Item = PlaceId> {
+    uses.iter().filter(move |(_, uses)| is_wanted(*uses)).map(|&(place, _)| place)
 }

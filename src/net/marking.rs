@@ -41,8 +41,7 @@ impl Net {
     /// Whether a transition is enabled: its preset and the places it reads are marked.
     #[must_use]
     pub fn is_enabled(&self, marking: &Marking, transition: TransitionId) -> bool {
-        let arcs = &self.transition(transition).arcs;
-        arcs.consume.iter().chain(&arcs.read).all(|&place| marking.is_marked(place))
+        self.arcs(transition).preset().all(|place| marking.is_marked(place))
     }
 
     /// The enabled transitions, in ascending order.
@@ -56,7 +55,7 @@ impl Net {
     /// [`NotSafe`] if a place of the postset would get a second token; the marking is then left as it was.
     pub fn fire(&self, marking: &mut Marking, transition: TransitionId) -> Result<(), NotSafe> {
         debug_assert!(self.is_enabled(marking, transition), "{} is not enabled", self.transition(transition).name);
-        let arcs = &self.transition(transition).arcs;
+        let arcs = self.arcs(transition);
         // The builder keeps preset and postset apart, so a marked place of the postset does not lose its token first.
         if let Some(&place) = arcs.produce.iter().find(|&&place| marking.is_marked(place)) {
             return Err(NotSafe(place));
@@ -75,11 +74,11 @@ mod tests {
     fn loops_become_read_arcs_and_read_tokens_stay() {
         let mut builder = Builder::new("n");
         let [a, b, c] = ["a", "b", "c"].map(|name| builder.place(name, name == "a"));
-        let t = builder.transition("t", Arcs { consume: vec![a], produce: vec![b, a], read: vec![] });
-        let u = builder.transition("u", Arcs { consume: vec![b], produce: vec![c], read: vec![a, b] });
+        let t = builder.transition("t", Arcs { consume: &[a], produce: &[b, a], read: &[] });
+        let u = builder.transition("u", Arcs { consume: &[b], produce: &[c], read: &[a, b] });
         let net = builder.build();
-        assert_eq!(net.transition(t).arcs, Arcs { consume: vec![], produce: vec![b], read: vec![a] });
-        assert_eq!(net.transition(u).arcs, Arcs { consume: vec![b], produce: vec![c], read: vec![a] });
+        assert_eq!(net.arcs(t), Arcs { consume: &[], produce: &[b], read: &[a] });
+        assert_eq!(net.arcs(u), Arcs { consume: &[b], produce: &[c], read: &[a] });
         assert_eq!((net.arc_count(), net.read_arc_count()), (7, 2));
 
         let mut marking = net.initial_marking();
@@ -95,7 +94,7 @@ mod tests {
     fn putting_a_token_where_one_is_read_is_not_safe() {
         let mut builder = Builder::new("n");
         let a = builder.place("a", true);
-        let t = builder.transition("t", Arcs { consume: vec![], produce: vec![a], read: vec![a] });
+        let t = builder.transition("t", Arcs { consume: &[], produce: &[a], read: &[a] });
         let net = builder.build();
         assert_eq!(net.fire(&mut net.initial_marking(), t), Err(NotSafe(a)));
     }

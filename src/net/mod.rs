@@ -10,7 +10,7 @@
 //!
 //! let mut builder = Builder::new("two-phase clock");
 //! let (low, high) = (builder.place("low", true), builder.place("high", false));
-//! let rise = builder.transition("rise", Arcs { consume: vec![low], produce: vec![high], read: vec![] });
+//! let rise = builder.transition("rise", Arcs { consume: &[low], produce: &[high], read: &[] });
 //! let net = builder.build();
 //!
 //! let mut marking = net.initial_marking();
@@ -18,13 +18,19 @@
 //! assert!(marking.is_marked(high) && !marking.is_marked(low));
 //! ```
 
+mod arcs;
 mod builder;
 mod located;
 mod marking;
+mod names;
 
-pub use builder::{Arcs, Builder};
+pub use arcs::Arcs;
+pub use builder::Builder;
 pub use located::Located;
 pub use marking::{Marking, NotSafe};
+
+use arcs::ArcTable;
+use names::Names;
 
 /// A place, as a position in its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,94 +69,105 @@ impl TransitionId {
 }
 
 /// A place.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place<'n> {
     /// Its name, unique in the net.
-    pub name: String,
+    pub name: &'n str,
     /// Whether it is marked at the beginning.
     pub marked: bool,
 }
 
 /// A transition.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Transition {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Transition<'n> {
     /// Its name, unique in the net.
-    pub name: String,
-    /// Preset and postset, each list in ascending order. A place from which a token is taken is in no other list; one
-    /// that is both read and put to gets a second token if the transition fires.
-    pub arcs: Arcs,
+    pub name: &'n str,
+    /// Its arcs; see [`Net::arcs`].
+    pub arcs: Arcs<'n>,
 }
 
 /// A net. Made by [`Builder`] and never changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Net {
     name: String,
-    places: Vec<Place>,
-    transitions: Vec<Transition>,
+    place_names: Names,
+    marked: Vec<bool>,
+    transition_names: Names,
+    arcs: ArcTable,
 }
 
 impl Net {
+    fn empty(name: String) -> Self {
+        let (place_names, transition_names) = (Names::default(), Names::default());
+        Self { name, place_names, marked: Vec::new(), transition_names, arcs: ArcTable::default() }
+    }
+
     /// The name of the net.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The places; [`PlaceId`] is the position.
-    #[must_use]
-    pub fn places(&self) -> &[Place] {
-        &self.places
+    /// The places, in the order of their ids.
+    pub fn places(&self) -> impl ExactSizeIterator<Item = Place<'_>> + Clone {
+        self.place_ids().map(|id| self.place(id))
     }
 
-    /// The transitions; [`TransitionId`] is the position.
-    #[must_use]
-    pub fn transitions(&self) -> &[Transition] {
-        &self.transitions
+    /// The transitions, in the order of their ids.
+    pub fn transitions(&self) -> impl ExactSizeIterator<Item = Transition<'_>> + Clone {
+        self.transition_ids().map(|id| self.transition(id))
     }
 
     /// The ids of all places.
-    pub fn place_ids(&self) -> impl Iterator<Item = PlaceId> + Clone + use<> {
-        (0..self.places.len()).map(PlaceId::at)
+    pub fn place_ids(&self) -> impl ExactSizeIterator<Item = PlaceId> + Clone + use<> {
+        (0..self.marked.len()).map(PlaceId::at)
     }
 
     /// The ids of all transitions.
-    pub fn transition_ids(&self) -> impl Iterator<Item = TransitionId> + Clone + use<> {
-        (0..self.transitions.len()).map(TransitionId::at)
+    pub fn transition_ids(&self) -> impl ExactSizeIterator<Item = TransitionId> + Clone + use<> {
+        (0..self.arcs.len()).map(TransitionId::at)
     }
 
     /// A place.
     #[must_use]
-    pub fn place(&self, id: PlaceId) -> &Place {
-        &self.places[id.index()]
+    pub fn place(&self, id: PlaceId) -> Place<'_> {
+        Place { name: self.place_names.get(id.index()), marked: self.marked[id.index()] }
     }
 
     /// A transition.
     #[must_use]
-    pub fn transition(&self, id: TransitionId) -> &Transition {
-        &self.transitions[id.index()]
+    pub fn transition(&self, id: TransitionId) -> Transition<'_> {
+        Transition { name: self.transition_names.get(id.index()), arcs: self.arcs(id) }
+    }
+
+    /// Preset and postset of a transition, each list in ascending order. A place from which a token is taken is in no other
+    /// list; one that is both read and put to gets a second token if the transition fires.
+    #[must_use]
+    pub fn arcs(&self, id: TransitionId) -> Arcs<'_> {
+        self.arcs.get(id)
     }
 
     /// The place of a name.
     #[must_use]
     pub fn find_place(&self, name: &str) -> Option<PlaceId> {
-        self.place_ids().find(|&id| self.place(id).name == name)
+        self.places().position(|place| place.name == name).map(PlaceId::at)
     }
 
     /// The transition of a name.
     #[must_use]
     pub fn find_transition(&self, name: &str) -> Option<TransitionId> {
-        self.transition_ids().find(|&id| self.transition(id).name == name)
+        self.transitions().position(|transition| transition.name == name).map(TransitionId::at)
     }
 
     /// How many arcs the net has where every read arc is written as a loop of two.
     #[must_use]
     pub fn arc_count(&self) -> usize {
-        self.transitions.iter().map(|t| t.arcs.consume.len() + t.arcs.produce.len() + 2 * t.arcs.read.len()).sum()
+        self.arcs.count() + self.read_arc_count()
     }
 
     /// How many read arcs the net has.
     #[must_use]
     pub fn read_arc_count(&self) -> usize {
-        self.transitions.iter().map(|t| t.arcs.read.len()).sum()
+        self.transition_ids().map(|id| self.arcs(id).read.len()).sum()
     }
 }

@@ -86,16 +86,14 @@ impl Copying<'_> {
     fn step(&mut self, (at, next): (PlaceId, PlaceId), bit: u32, value: bool, source: Option<&Source>) {
         let place: Bit = self.weaver.variable(self.input)[bit as usize];
         let variable = self.program.variable(self.input);
+        let given = source.map(|source| source.place);
         let from = source.map(|source| format!(" from {}", source.name)).unwrap_or_default();
         let which = if variable.ty.is_bool() { String::new() } else { format!("{}.{bit}:", variable.name) };
         for old in VALUES {
-            let arcs = Arcs {
-                consume: vec![at, place.place(old)],
-                produce: vec![next, place.place(value)],
-                read: source.map(|source| source.place).into_iter().collect(),
-            };
+            let arcs =
+                Arcs { consume: &[at, place.place(old)], produce: &[next, place.place(value)], read: given.as_slice() };
             let label = format!("{}[{which}{}->{}{from}]", self.weaver.place_name(at), u8::from(old), u8::from(value));
-            self.weaver.transition(label, arcs, TransitionRole::Copy { variable: self.input, bit, value });
+            self.weaver.transition(&label, arcs, TransitionRole::Copy { variable: self.input, bit, value });
         }
     }
 }

@@ -21,11 +21,13 @@ pub struct Subnet<'a> {
     /// How many places there are within the line.
     within: u32,
     hazards: BTreeMap<Hazard, PlaceId>,
+    /// The name of the node in the making; kept for its memory.
+    name: String,
 }
 
 impl<'a> Subnet<'a> {
     pub fn new(weaver: &'a mut Weaver, line: usize, lines: &'a [PlaceId]) -> Self {
-        Self { weaver, line, lines, within: 0, hazards: BTreeMap::new() }
+        Self { weaver, line, lines, within: 0, hazards: BTreeMap::new(), name: String::new() }
     }
 
     /// Where control enters.
@@ -101,20 +103,20 @@ impl<'a> Subnet<'a> {
     /// One transition between two control places, enabled by the old values of the bits, which get the new ones. No bit may
     /// be named twice.
     pub fn step(&mut self, from: PlaceId, to: PlaceId, changes: &[Change]) {
-        let mut arcs = Arcs { consume: vec![from], produce: vec![to], read: vec![] };
-        let mut name = self.weaver.place_name(from).to_owned();
+        // A bit that keeps its value gives and gets the same token: a loop, which the builder takes for a read arc.
+        let mut consume = vec![from];
+        let mut produce = vec![to];
+        self.name.clear();
+        self.name.push_str(self.weaver.place_name(from));
         for (i, &(bit, before, after)) in changes.iter().enumerate() {
-            if before == after {
-                arcs.read.push(bit.place(before));
-            } else {
-                arcs.consume.push(bit.place(before));
-                arcs.produce.push(bit.place(after));
-            }
-            name.push(if i == 0 { '[' } else { ',' });
-            name.push_str(self.weaver.place_name(bit.place(before)));
+            consume.push(bit.place(before));
+            produce.push(bit.place(after));
+            self.name.push(if i == 0 { '[' } else { ',' });
+            self.name.push_str(self.weaver.place_name(bit.place(before)));
         }
-        name.push_str(if changes.is_empty() { "[]" } else { "]" });
-        self.weaver.transition(name, arcs, TransitionRole::Line(self.line));
+        self.name.push_str(if changes.is_empty() { "[]" } else { "]" });
+        let arcs = Arcs { consume: &consume, produce: &produce, read: &[] };
+        self.weaver.transition(&self.name, arcs, TransitionRole::Line(self.line));
     }
 
     /// Steps one after another; none is one transition that changes nothing.

@@ -140,8 +140,7 @@ impl System {
 fn moves(net: &Net, places: &[PlaceRole]) -> Vec<Vec<TransitionId>> {
     let mut moves = vec![Vec::new(); net.places().len() + 1];
     for id in net.transition_ids() {
-        let arcs = &net.transition(id).arcs;
-        let control = arcs.consume.iter().chain(&arcs.read).find(|place| places[place.index()].is_control());
+        let control = net.arcs(id).preset().find(|place| places[place.index()].is_control());
         moves[control.map_or(net.places().len(), |place| place.index())].push(id);
     }
     moves
@@ -191,9 +190,9 @@ fn system_program(
     let plant_places: Vec<Vec<PlaceId>> =
         (plant.components.iter().enumerate()).map(|(i, component)| component.add_places(weaver, i)).collect();
 
-    let stop = blocking.iter().flatten().copied().chain([idle]).collect();
-    let block = Arcs { consume: stop, produce: vec![control[0]], read: vec![] };
-    weaver.transition("block".to_owned(), block, TransitionRole::Block);
+    let idle_and_free: Vec<PlaceId> = blocking.iter().flatten().copied().chain([idle]).collect();
+    let block = Arcs { consume: &idle_and_free, produce: &[control[0]], read: &[] };
+    weaver.transition("block", block, TransitionRole::Block);
     for (k, &input) in inputs.iter().enumerate() {
         let way = Way { from: control[k], to: control[k + 1] };
         match plant.driver(input) {
@@ -207,9 +206,8 @@ fn system_program(
             }
         }
     }
-    let go = blocking.iter().flatten().copied().chain([idle]).collect();
-    let unblock = Arcs { consume: vec![end], produce: go, read: vec![] };
-    weaver.transition("unblock".to_owned(), unblock, TransitionRole::Unblock);
+    let unblock = Arcs { consume: &[end], produce: &idle_and_free, read: &[] };
+    weaver.transition("unblock", unblock, TransitionRole::Unblock);
     for (i, component) in plant.components.iter().enumerate() {
         component.add_transitions(weaver, i, &plant_places[i], blocking[i]);
     }

@@ -74,7 +74,7 @@ impl Weaver {
         self.builder.place_name(place)
     }
 
-    pub fn transition(&mut self, name: String, arcs: Arcs, role: TransitionRole) -> TransitionId {
+    pub fn transition(&mut self, name: &str, arcs: Arcs<'_>, role: TransitionRole) -> TransitionId {
         self.transition_roles.push(role);
         self.builder.transition(name, arcs)
     }

@@ -124,7 +124,7 @@ pub fn firing_table(system: &System, trace: &FiringTrace) -> Table {
         table.row(vec![
             format!("{}{repeats}", position + 1),
             scan.to_string(),
-            system.net.transition(transition).name.clone(),
+            system.net.transition(transition).name.to_owned(),
             instruction,
         ]);
     }

@@ -69,7 +69,7 @@ impl<'s> Replay<'s> {
     /// The transition is not enabled, the net not safe, or net and interpreter differ afterwards.
     pub fn fire(&mut self, transition: TransitionId) -> Result<(), Disagreement> {
         let net = &self.system.net;
-        let name = &net.transition(transition).name;
+        let name = net.transition(transition).name;
         if !net.is_enabled(&self.marking, transition) {
             return Err(Disagreement(format!("`{name}` is not enabled")));
         }
@@ -77,7 +77,7 @@ impl<'s> Replay<'s> {
             Disagreement(format!("`{name}` marks `{}` twice", net.place(place).name))
         })?;
         let places = &self.system.places;
-        let arrived = net.transition(transition).arcs.produce.iter().find(|place| places[place.index()].is_control());
+        let arrived = net.arcs(transition).produce.iter().find(|place| places[place.index()].is_control());
         self.control = arrived.copied().unwrap_or(self.control);
         self.follow(transition)?;
         if self.is_within_line() {

@@ -17,18 +17,16 @@ pub fn safe_net() -> impl Strategy<Value = Net> {
         let devices: Vec<Vec<_>> = sizes.iter().enumerate().map(&mut device).collect();
         let place = |d: usize, p: usize| devices[d % devices.len()][p % devices[d % devices.len()].len()];
         for (t, (moves, reads)) in transitions.into_iter().enumerate() {
-            let mut arcs = Arcs::default();
+            let (mut consume, mut produce) = (Vec::new(), Vec::new());
             for (d, (from, to)) in moves.into_iter().enumerate().take(devices.len()).filter_map(|(d, m)| Some((d, m?)))
             {
-                arcs.consume.push(place(d, from));
-                arcs.produce.push(place(d, to));
+                consume.push(place(d, from));
+                produce.push(place(d, to));
             }
-            arcs.read.extend(reads.into_iter().map(|(d, p)| place(d, p)));
             // A device whose token is moved has no place that could be read as well, but the one it is taken from.
-            let moved =
-                |place: &_| devices.iter().any(|d| d.contains(place) && d.iter().any(|p| arcs.consume.contains(p)));
-            let read: Vec<_> = arcs.read.iter().copied().filter(|place| !moved(place)).collect();
-            builder.transition(format!("t{t}"), Arcs { read, ..arcs });
+            let moved = |place: &_| devices.iter().any(|d| d.contains(place) && d.iter().any(|p| consume.contains(p)));
+            let read: Vec<_> = reads.into_iter().map(|(d, p)| place(d, p)).filter(|place| !moved(place)).collect();
+            builder.transition(format!("t{t}"), Arcs { consume: &consume, produce: &produce, read: &read });
         }
         builder.build()
     })
@@ -42,8 +40,9 @@ pub fn any_net() -> impl Strategy<Value = Net> {
         let mut builder = Builder::new("any");
         let places: Vec<_> = marked.iter().enumerate().map(|(i, &m)| builder.place(format!("p{i}"), m)).collect();
         for (t, (consume, produce, read)) in transitions.into_iter().enumerate() {
-            let ids = |list: Vec<usize>| list.into_iter().map(|p| places[p]).collect();
-            builder.transition(format!("t{t}"), Arcs { consume: ids(consume), produce: ids(produce), read: ids(read) });
+            let ids = |list: Vec<usize>| list.into_iter().map(|p| places[p]).collect::<Vec<_>>();
+            builder
+                .transition(format!("t{t}"), Arcs { consume: &ids(consume), produce: &ids(produce), read: &ids(read) });
         }
         builder.build()
     })

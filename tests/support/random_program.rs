@@ -79,9 +79,9 @@ pub fn device() -> impl Strategy<Value = Located> {
             (0..positions).map(|i| builder.place(format!("i0={},i1={}", i % 2, i / 2), i == 0)).collect();
         let tests = [false, true].map(|value| builder.place(format!("q0={}", u8::from(value)), false));
         for (i, &(from, to, test)) in moves.iter().enumerate() {
-            let read = test.map(|value| tests[usize::from(value)]).into_iter().collect();
-            let (consume, produce) = (vec![places[from % positions]], vec![places[to % positions]]);
-            builder.transition(format!("t{i}"), Arcs { consume, produce, read });
+            let read = test.map(|value| tests[usize::from(value)]);
+            let (consume, produce) = (&[places[from % positions]], &[places[to % positions]]);
+            builder.transition(format!("t{i}"), Arcs { consume, produce, read: read.as_slice() });
         }
         let net = builder.build();
         let (places, transitions) = (net.places().len(), net.transitions().len());

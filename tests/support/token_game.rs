@@ -35,14 +35,14 @@ impl Game {
         let positions = |places: &[PlaceId]| places.iter().map(|place| place.index() as u32).collect::<Vec<_>>();
         let moves = system.net.place_ids().map(|control| {
             let moves = system.moves(control).iter().map(|&id| {
-                let arcs = &system.net.transition(id).arcs;
+                let arcs = system.net.arcs(id);
                 let is_control = |place: &&PlaceId| system.places[place.index()].is_control();
-                let mut needs = positions(&arcs.read);
-                needs.extend(positions(&arcs.consume));
+                let mut needs = positions(arcs.read);
+                needs.extend(positions(arcs.consume));
                 Move {
                     needs,
-                    takes: positions(&arcs.consume),
-                    puts: positions(&arcs.produce),
+                    takes: positions(arcs.consume),
+                    puts: positions(arcs.produce),
                     to: arcs.produce.iter().find(is_control).map_or(control.index(), |place| place.index()) as u32,
                     role: system.transitions[id.index()],
                 }
@@ -103,7 +103,7 @@ impl Game {
         let is_enabled = |step: &&Move| wanted(step.role) && step.needs.iter().all(|&place| marked[place as usize]);
         let mut enabled = self.moves[self.control].iter().filter(is_enabled);
         let (first, second) = (enabled.next(), enabled.next());
-        let name = |control: usize| &self.system.net.places()[control].name;
+        let name = |control: usize| self.system.net.place(PlaceId::at(control)).name;
         let (Some(step), None) = (first, second) else {
             panic!("at `{}` there is not one enabled transition", name(self.control))
         };

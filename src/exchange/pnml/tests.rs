@@ -1,7 +1,7 @@
 //! What is read, and what is said about what cannot be read.
 
 use super::read;
-use crate::net::{Arcs, Located};
+use crate::net::{Arcs, Located, TransitionId};
 use crate::source::Source;
 
 /// A document around what stands on its page, which begins in line 2.
@@ -48,11 +48,11 @@ fn labels_are_trimmed_and_everything_else_is_passed_over() {
         <arc id='z' source='t' target='b'><graphics><position x='1' y='2'/></graphics></arc>",
     );
     let net = &file.net;
-    let places: Vec<_> = net.places().iter().map(|place| (place.name.as_str(), place.marked)).collect();
+    let places: Vec<_> = net.places().map(|place| (place.name, place.marked)).collect();
     assert_eq!(places, [("{S1=1} & more", true), ("b", false)], "names in braces are names");
     let ids: Vec<_> = net.place_ids().collect();
-    let arcs = &net.transitions()[0].arcs;
-    assert_eq!(*arcs, Arcs { consume: vec![], produce: vec![ids[1]], read: vec![ids[0]] }, "a loop is a read arc");
+    let arcs = net.arcs(TransitionId::at(0));
+    assert_eq!(arcs, Arcs { consume: &[], produce: &[ids[1]], read: &[ids[0]] }, "a loop is a read arc");
     assert_eq!(net.name(), "net", "its id: it has no name");
 }
 
@@ -70,11 +70,11 @@ fn pages_and_references_make_one_net() {
          <place id='q'/>",
     );
     let net = &file.net;
-    let names: Vec<_> = net.places().iter().map(|place| place.name.as_str()).collect();
+    let names: Vec<_> = net.places().map(|place| place.name).collect();
     assert_eq!(names, ["q", "p"], "page by page, the outer one first");
     let find = |name| net.find_place(name).unwrap();
-    let arcs = &net.transitions()[0].arcs;
-    assert_eq!(*arcs, Arcs { consume: vec![find("p")], produce: vec![find("q")], read: vec![] });
+    let arcs = net.arcs(TransitionId::at(0));
+    assert_eq!(arcs, Arcs { consume: &[find("p")], produce: &[find("q")], read: &[] });
 }
 
 #[test]
@@ -82,9 +82,9 @@ fn names_that_are_taken_give_way_to_ids() {
     let place = |id: &str, name: &str| format!("<place id='{id}'><name><text>{name}</text></name></place>");
     let places = [place("a", "x"), place("b", "x"), place("c", "d"), place("d", "x"), "<place id='x'/>".to_owned()];
     let net = read_page(&format!("{}<transition id='t'><name><text>x</text></name></transition>", places.concat())).net;
-    let names: Vec<_> = net.places().iter().map(|place| place.name.as_str()).collect();
+    let names: Vec<_> = net.places().map(|place| place.name).collect();
     assert_eq!(names, ["x", "b", "d", "d'2", "x'3"], "an id gives way to a name");
-    assert_eq!(net.transitions()[0].name, "x", "transitions have names of their own");
+    assert_eq!(net.transition(TransitionId::at(0)).name, "x", "transitions have names of their own");
 }
 
 #[test]

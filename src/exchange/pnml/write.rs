@@ -42,27 +42,27 @@ fn document(xml: &mut Xml, net: &Net, positions: Option<&Positions>, notes: Opti
 }
 
 fn page(xml: &mut Xml, net: &Net, positions: Option<&Positions>, notes: Option<&Notes>) -> io::Result<()> {
-    for (i, place) in net.places().iter().enumerate() {
+    for (i, place) in net.places().enumerate() {
         let element = xml.create_element("place").with_attribute(("id", format!("p{i}").as_str()));
         element.write_inner_content(|xml| {
-            label(xml, "name", &place.name)?;
+            label(xml, "name", place.name)?;
             graphics(xml, positions.map(|positions| positions.places[i]))?;
             tool_section(xml, notes.map(|notes| &notes.places[i]))?;
             if place.marked { label(xml, "initialMarking", "1") } else { Ok(()) }
         })?;
     }
-    for (i, transition) in net.transitions().iter().enumerate() {
+    for (i, transition) in net.transitions().enumerate() {
         let element = xml.create_element("transition").with_attribute(("id", format!("t{i}").as_str()));
         element.write_inner_content(|xml| {
-            label(xml, "name", &transition.name)?;
+            label(xml, "name", transition.name)?;
             graphics(xml, positions.map(|positions| positions.transitions[i]))?;
             tool_section(xml, notes.map(|notes| &notes.transitions[i]))
         })?;
     }
     let mut arcs = 0..;
-    for (i, transition) in net.transitions().iter().enumerate() {
+    for (i, transition) in net.transitions().enumerate() {
         let here = format!("t{i}");
-        let lists = &transition.arcs;
+        let lists = transition.arcs;
         let mut arc = |xml: &mut Xml, source: &str, target: &str, weight: u8| {
             let id = format!("a{}", arcs.next().unwrap_or_default());
             let element = xml.create_element("arc");
@@ -73,10 +73,10 @@ fn page(xml: &mut Xml, net: &Net, positions: Option<&Positions>, notes: Option<&
             }
             .map(drop)
         };
-        for place in &lists.consume {
+        for place in lists.consume {
             arc(xml, &format!("p{}", place.index()), &here, 1)?;
         }
-        for place in &lists.read {
+        for place in lists.read {
             let weight = if lists.produce.binary_search(place).is_ok() { 2 } else { 1 };
             let place = format!("p{}", place.index());
             arc(xml, &place, &here, 1)?;

@@ -1,7 +1,7 @@
 //! What is read, and what is said about what cannot be read.
 
 use super::read;
-use crate::net::{Arcs, PlaceId};
+use crate::net::{Arcs, PlaceId, TransitionId};
 use crate::source::Source;
 
 /// Everything that is wrong with a text, as `line:column code message`.
@@ -41,13 +41,13 @@ fn every_declaration_of_the_format_is_read() {
     let file = read(&source).unwrap();
     let net = &file.net;
     assert_eq!(net.name(), "two words");
-    let places: Vec<_> = net.places().iter().map(|place| (place.name.as_str(), place.marked)).collect();
+    let places: Vec<_> = net.places().map(|place| (place.name, place.marked)).collect();
     assert_eq!(places, [("p", true), ("q}", false), ("q'2", false), ("unused", false)]);
-    let names: Vec<_> = net.transitions().iter().map(|t| t.name.as_str()).collect();
+    let names: Vec<_> = net.transitions().map(|t| t.name).collect();
     assert_eq!(names, ["t 1", "none", "source", "p"], "a place and a transition may have one name");
     let [p, q, q2, _] = net.place_ids().collect::<Vec<PlaceId>>()[..] else { panic!("{net:?}") };
-    let arcs = &net.transitions()[0].arcs;
-    assert_eq!(*arcs, Arcs { consume: vec![p], produce: vec![q2], read: vec![q] });
+    let arcs = net.arcs(TransitionId::at(0));
+    assert_eq!(arcs, Arcs { consume: &[p], produce: &[q2], read: &[q] });
     let at = |id| source.slice(file.place_span(id));
     assert_eq!([at(p), at(q), at(q2)], ["p", "{q\\}}", "q'2"]);
     assert_eq!(source.line_of(file.place_span(p).start), 4, "the declaration, not the first use");

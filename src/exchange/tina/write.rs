@@ -10,15 +10,15 @@ pub fn write(net: &Net) -> String {
     let mut out = format!("net {}\n", name(net.name()));
     for place in net.places() {
         let marking = if place.marked { " (1)" } else { "" };
-        let _ = writeln!(out, "pl {}{marking}", name(&place.name));
+        let _ = writeln!(out, "pl {}{marking}", name(place.name));
     }
     for transition in net.transitions() {
         let list = |places: &[PlaceId], suffix: &str| -> String {
-            places.iter().map(|&id| format!(" {}{suffix}", name(&net.place(id).name))).collect()
+            places.iter().map(|&id| format!(" {}{suffix}", name(net.place(id).name))).collect()
         };
-        let arcs = &transition.arcs;
-        let inputs = list(&arcs.consume, "") + &list(&arcs.read, "?1");
-        let _ = writeln!(out, "tr {}{inputs} ->{}", name(&transition.name), list(&arcs.produce, ""));
+        let arcs = transition.arcs;
+        let inputs = list(arcs.consume, "") + &list(arcs.read, "?1");
+        let _ = writeln!(out, "tr {}{inputs} ->{}", name(transition.name), list(arcs.produce, ""));
     }
     out
 }

@@ -132,10 +132,10 @@ impl Component {
                 let bits = weaver.variable(output).iter().enumerate();
                 bits.map(move |(position, bit)| bit.place(pattern >> position & 1 == 1))
             });
-            let read = ids(&transition.read).into_iter().chain(blocking).chain(tests).collect();
-            let arcs = Arcs { consume: ids(&transition.consume), produce: ids(&transition.produce), read };
+            let read: Vec<PlaceId> = ids(&transition.read).into_iter().chain(blocking).chain(tests).collect();
+            let arcs = Arcs { consume: &ids(&transition.consume), produce: &ids(&transition.produce), read: &read };
             let role = TransitionRole::Plant { component: index, transition: position };
-            weaver.transition(transition.name.clone(), arcs, role);
+            weaver.transition(&transition.name, arcs, role);
         }
     }
 }

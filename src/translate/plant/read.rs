@@ -91,7 +91,7 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
 
 /// What a place is to the program; `position` is that of its diagnostic, if there will be one.
 fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usize) -> Result<Meaning, Diagnostic> {
-    let (name, span) = (&file.net.place(place).name, file.place_span(place));
+    let (name, span) = (file.net.place(place).name, file.place_span(place));
     let unfit = |message: String| Diagnostic::new(Code::PlantVariableUnfit, span, message);
     let assignments = match valuation::parse(name) {
         None => return Ok(Meaning::Own(Vec::new())),
@@ -174,7 +174,7 @@ fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> 
     let is_own = |place: &PlaceId| matches!(meanings[place.index()], Meaning::Own(_));
     let mut classes = UnionFind::new(offset + net.transitions().len());
     for id in net.transition_ids() {
-        let Arcs { consume, produce, read } = &net.transition(id).arcs;
+        let Arcs { consume, produce, read } = net.arcs(id);
         for place in consume.iter().chain(produce).chain(read).filter(|place| is_own(place)) {
             classes.union(place.index(), offset + id.index());
         }
@@ -212,15 +212,15 @@ fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> 
     let positions =
         |list: &[PlaceId]| list.iter().filter(|place| is_own(place)).map(|place| position[place.index()]).collect();
     let place = |&id: &PlaceId| PlantPlace {
-        name: qualified(&net.place(id).name),
+        name: qualified(net.place(id).name),
         marked: net.place(id).marked,
         drives: meanings[id.index()].values().to_vec(),
     };
     let transition = |&id: &TransitionId| {
-        let Arcs { consume, produce, read } = &net.transition(id).arcs;
+        let Arcs { consume, produce, read } = net.arcs(id);
         let tests = read.iter().filter(|place| !is_own(place)).flat_map(|place| meanings[place.index()].values());
         PlantTransition {
-            name: qualified(&net.transition(id).name),
+            name: qualified(net.transition(id).name),
             consume: positions(consume),
             produce: positions(produce),
             read: positions(read),
