@@ -3,7 +3,7 @@
 
 use super::subnet::Subnet;
 use super::walk::Stage;
-use super::weaver::{Bit, Change, VALUES};
+use super::weaver::{Bit, Changes, VALUES};
 use super::wire::{Wire, with};
 use crate::flat::Hazard;
 use crate::semantics::{Kind, Type};
@@ -14,7 +14,7 @@ pub fn full(a: bool, b: bool, carry: bool) -> (bool, bool) {
 }
 
 /// The alternatives of `bit := bit + wire + carry`: what changes, and both carries, in and out.
-pub fn alternatives(bit: Bit, wire: &Wire, carry: bool) -> Vec<(Vec<Change>, [bool; 2])> {
+pub fn alternatives(bit: Bit, wire: &Wire, carry: bool) -> Vec<(Changes, [bool; 2])> {
     let mut alternatives = Vec::with_capacity(2 * wire.0.len());
     for old in VALUES {
         for (value, given) in &wire.0 {
@@ -34,7 +34,7 @@ pub fn overflows(ty: Type, subtracts: bool, [carry_in, carry_out]: [bool; 2]) ->
     }
 }
 
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 enum State {
     /// Before this bit, with this carry.
     Bit(usize, bool),

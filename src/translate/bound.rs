@@ -1,5 +1,7 @@
 //! Whether the current result is in a range; only the bits that can decide it are read.
 
+use smallvec::smallvec;
+
 use super::ranges::Block;
 use super::subnet::{Step, Subnet};
 use super::walk::Stage;
@@ -39,7 +41,7 @@ pub fn within(
         _ if block.is_empty() => Stage::Leave(subnet.hazard(hazard)),
         Some(highest) if !block.is_full() => {
             let bit = result[highest as usize];
-            Stage::Branch(VALUES.map(|value| (vec![(bit, value, value)], block.half(value))).into())
+            Stage::Branch(VALUES.map(|value| (smallvec![(bit, value, value)], block.half(value))).into())
         }
         _ => Stage::Leave(inside),
     });

@@ -2,9 +2,11 @@
 
 use std::cmp::Ordering;
 
+use smallvec::smallvec;
+
 use super::subnet::Subnet;
 use super::walk::Stage;
-use super::weaver::{Bit, Change, VALUES};
+use super::weaver::{Bit, Changes, VALUES};
 use super::wire::{Wire, with};
 use crate::flat::Function;
 use crate::semantics::Type;
@@ -22,7 +24,7 @@ fn truth(function: Function, ordering: Ordering) -> bool {
 }
 
 /// The alternatives of a bit and a wire, each with how they are ordered; a sign bit is ordered the other way round.
-pub fn alternatives(bit: Bit, wire: &Wire, sign: bool) -> Vec<(Vec<Change>, Ordering)> {
+pub fn alternatives(bit: Bit, wire: &Wire, sign: bool) -> Vec<(Changes, Ordering)> {
     let mut alternatives = Vec::with_capacity(2 * wire.0.len());
     for own in VALUES {
         for (value, given) in &wire.0 {
@@ -33,7 +35,7 @@ pub fn alternatives(bit: Bit, wire: &Wire, sign: bool) -> Vec<(Vec<Change>, Orde
     alternatives
 }
 
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 enum State {
     /// All bits above this one are equal.
     Equal(usize),
@@ -60,7 +62,9 @@ pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, wires: &
             };
             Stage::Branch(branches.into_iter().map(|(changes, ordering)| (changes, state(ordering))).collect())
         }
-        State::Known(answer) => Stage::Branch(VALUES.map(|old| (vec![(result[0], old, answer)], State::Done)).into()),
+        State::Known(answer) => {
+            Stage::Branch(VALUES.map(|old| (smallvec![(result[0], old, answer)], State::Done)).into())
+        }
         State::Done => Stage::Leave(next),
     });
 }

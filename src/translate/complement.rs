@@ -1,11 +1,13 @@
 //! `NOT`: every bit of the current result changes its value.
 
+use smallvec::smallvec;
+
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
 use crate::semantics::Type;
 
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type) {
-    let flip = |bit| VALUES.map(|value| vec![(bit, value, !value)]).into();
+    let flip = |bit| VALUES.map(|value| smallvec![(bit, value, !value)]).into();
     let steps: Vec<Step> = subnet.result(ty.width).into_iter().map(flip).collect();
     subnet.chain(subnet.here(), subnet.next(), &steps);
 }

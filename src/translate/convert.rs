@@ -1,5 +1,7 @@
 //! The current result in another type: cut off or extended, and whether the number is one of the new type.
 
+use smallvec::smallvec;
+
 use super::bound;
 use super::subnet::{Step, Subnet};
 use super::walk::Stage;
@@ -32,7 +34,7 @@ pub fn translate(subnet: &mut Subnet<'_>, from: Type, to: Type) {
 
 /// Whether any bit is 1.
 fn to_bool(subnet: &mut Subnet<'_>, bits: &[Bit]) {
-    #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+    #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
         /// All bits above this one are 0.
         Zero(usize),
@@ -47,6 +49,6 @@ fn to_bool(subnet: &mut Subnet<'_>, bits: &[Bit]) {
             let state = |value| if value { State::NotZero } else { State::Zero(bit - 1) };
             Stage::Branch(Wire::of(bits[bit]).branch(state))
         }
-        State::NotZero => Stage::Branch(VALUES.map(|old| (vec![(bits[0], old, true)], State::Done)).into()),
+        State::NotZero => Stage::Branch(VALUES.map(|old| (smallvec![(bits[0], old, true)], State::Done)).into()),
     });
 }

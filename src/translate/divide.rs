@@ -3,6 +3,8 @@
 
 use std::cmp::Ordering;
 
+use smallvec::smallvec;
+
 use super::add;
 use super::compare;
 use super::register::{clear, fill, fill_negated, negate};
@@ -105,7 +107,7 @@ impl Division {
 
     /// The current result becomes the remainder, and the quotient is noted if it is asked for.
     fn divide(&self, subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId) {
-        #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+        #[derive(Clone, PartialEq, Eq, Hash)]
         enum State {
             /// All bits of the divisor above this one are 0.
             Leading(usize),
@@ -192,7 +194,7 @@ impl Division {
         let mut steps: Vec<Step> = Vec::new();
         if !self.modulo {
             for (quotient, &bit) in subnet.register(Register::Quotient, self.ty.width).into_iter().zip(&self.result) {
-                let step = VALUES.map(|value| VALUES.map(|old| vec![(bit, old, value), (quotient, value, false)]));
+                let step = VALUES.map(|value| VALUES.map(|old| smallvec![(bit, old, value), (quotient, value, false)]));
                 steps.push(step.into_iter().flatten().collect());
             }
         }

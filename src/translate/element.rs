@@ -1,13 +1,15 @@
 //! Elements of arrays: every transition on an element reads the bits of the index that say which it is.
 
+use smallvec::smallvec;
+
 use super::subnet::Subnet;
-use super::weaver::{Bit, Change, VALUES};
+use super::weaver::{Bit, Changes, VALUES};
 use super::wire::{Wire, with};
 use crate::flat::{Element, Target};
 use crate::semantics::VarId;
 
 /// The elements that the index can choose, each with the bits of the index that choose it.
-fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Vec<Change>)> {
+fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Changes)> {
     let index = subnet.variable(element.index);
     let value = |number: usize, bit: usize| number.checked_shr(bit as u32).unwrap_or(0) & 1 == 1;
     let can_be = |number: &usize| number.checked_shr(index.len() as u32).unwrap_or(0) == 0;
@@ -35,9 +37,9 @@ pub fn wire(subnet: &Subnet<'_>, element: Element, bit: u32) -> Wire {
 
 /// The bits that a target can be, for each position: each with the bits of the index that choose it. One that is not stored
 /// is none.
-pub fn targets(subnet: &Subnet<'_>, target: Target) -> Vec<Vec<(Option<Bit>, Vec<Change>)>> {
+pub fn targets(subnet: &Subnet<'_>, target: Target) -> Vec<Vec<(Option<Bit>, Changes)>> {
     let choices = match target {
-        Target::Variable(variable) => vec![(variable, vec![])],
+        Target::Variable(variable) => vec![(variable, smallvec![])],
         Target::Element(element) => choices(subnet, element),
     };
     let most = choices.iter().map(|(variable, _)| subnet.variable(*variable).len()).max().unwrap_or(0);

@@ -1,13 +1,15 @@
 //! `MUL x`: shift and add, in the current result itself. Its bits are taken from the highest to the lowest; one that is 1
 //! becomes 0, and the operand is added from its position on. The bits above already are part of the product then.
 
+use smallvec::smallvec;
+
 use super::add::{alternatives, overflows};
 use super::bound;
 use super::register::{clear, fill, fill_negated, negate};
 use super::shift;
 use super::subnet::Subnet;
 use super::walk::Stage;
-use super::weaver::{Bit, Change, VALUES};
+use super::weaver::{Bit, Change, Changes, VALUES};
 use super::wire::Wire;
 use crate::flat::{Function, Hazard, Operand, Target};
 use crate::net::PlaceId;
@@ -99,7 +101,7 @@ fn magnitude(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit]
 /// Marks an overflow if the operand, shifted to the highest 1 of the current result, is too long for the type. If not, no
 /// summand is too long.
 fn fits(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit], added: &[Wire], signed: bool) {
-    #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+    #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
         /// All bits of the current result above this one are 0.
         Leading(usize),
@@ -122,7 +124,7 @@ fn fits(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit], add
         State::All(bit, expected) => Stage::Branch(
             added[bit].branch(|value| if value == expected { all(bit + 1, expected) } else { State::TooLong }),
         ),
-        State::TooLong => Stage::Branch(vec![(vec![(mark, false, true)], State::Done)]),
+        State::TooLong => Stage::Branch(vec![(smallvec![(mark, false, true)], State::Done)]),
         State::Done => Stage::Leave(to),
     });
 }
@@ -137,7 +139,7 @@ fn add_up(
     added: &[Wire],
     mark: Option<Bit>,
 ) {
-    #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+    #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
         /// Before this bit of the current result.
         Row(usize),
@@ -156,7 +158,7 @@ fn add_up(
     };
     subnet.walk(from, State::Row(width - 1), |_, state| match *state {
         State::Row(row) => {
-            let mut branches = vec![(vec![(result[row], false, false)], below(row))];
+            let mut branches = vec![(smallvec![(result[row], false, false)], below(row))];
             for (value, given) in &added[0].0 {
                 let changes = super::wire::with((result[row], true, *value), given);
                 branches.push((changes, behind(row, 0, false)));
@@ -181,9 +183,9 @@ fn add_up(
 }
 
 /// The same changes, and the mark is set, whatever it was.
-fn marked(changes: &[Change], mark: Bit) -> [Vec<Change>; 2] {
+fn marked(changes: &[Change], mark: Bit) -> [Changes; 2] {
     VALUES.map(|old| {
-        let mut changes = changes.to_vec();
+        let mut changes = Changes::from_slice(changes);
         changes.push((mark, old, true));
         changes
     })

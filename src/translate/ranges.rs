@@ -3,7 +3,7 @@
 use crate::semantics::Type;
 
 /// Some of the patterns of a number of bits. Equal sets are equal values, so that a decision diagram shares them.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Block {
     /// How many bits are not yet decided.
     bits: u32,

@@ -1,5 +1,7 @@
 //! What multiplication and division do with whole registers: copying, negating, setting to 0.
 
+use smallvec::smallvec;
+
 use super::subnet::{Step, Subnet};
 use super::walk::Stage;
 use super::weaver::{Bit, VALUES};
@@ -34,7 +36,7 @@ pub fn fill_negated(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &
 pub fn negate(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &[Bit]) {
     subnet.walk(from, (0, false), |_, &(position, seen)| {
         let Some(&bit) = bits.get(position) else { return Stage::Leave(to) };
-        let branches = VALUES.map(|value| (vec![(bit, value, value ^ seen)], (position + 1, seen | value)));
+        let branches = VALUES.map(|value| (smallvec![(bit, value, value ^ seen)], (position + 1, seen | value)));
         Stage::Branch(branches.into())
     });
 }

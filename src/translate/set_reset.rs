@@ -1,5 +1,7 @@
 //! `S x`, `R x`: the variable becomes 1 or 0 if the current result is 1, and keeps its value if it is 0.
 
+use smallvec::smallvec;
+
 use super::element::targets;
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
@@ -12,7 +14,7 @@ pub fn translate(subnet: &mut Subnet<'_>, target: Target, value: bool) {
         let Some(bit) = bit else { continue };
         for old in VALUES {
             for (condition, new) in [(false, old), (true, value)] {
-                let mut changes = vec![(result, condition, condition), (bit, old, new)];
+                let mut changes = smallvec![(result, condition, condition), (bit, old, new)];
                 changes.extend_from_slice(&given);
                 step.push(changes);
             }

@@ -1,5 +1,7 @@
 //! `SHL x`, `SHR x`, `ROL x`, `ROR x`: by a constant at once, by a variable in a stage for each bit of the distance.
 
+use smallvec::smallvec;
+
 use super::register::clear;
 use super::subnet::{Step, Subnet};
 use super::walk::Stage;
@@ -99,7 +101,7 @@ pub fn once(subnet: &mut Subnet<'_>, function: Function, from: PlaceId, to: Plac
 
 /// Rotates to the left. Each cycle of positions is gone around once, control holding the value that comes next.
 fn rotate(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &[Bit], distance: usize) {
-    #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+    #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
         /// Before the cycle that begins at this position.
         Cycle(usize),
@@ -123,7 +125,7 @@ fn rotate(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &[Bit], dis
                     State::Put { cycle, position: (position + distance) % width, value: old }
                 }
             };
-            Stage::Branch(VALUES.map(|old| (vec![(bits[position], old, value)], after(old))).into())
+            Stage::Branch(VALUES.map(|old| (smallvec![(bits[position], old, value)], after(old))).into())
         }
     });
 }

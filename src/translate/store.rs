@@ -1,5 +1,7 @@
 //! `ST x`, `STN x`: the variable takes the value of the current result.
 
+use smallvec::smallvec;
+
 use super::element::targets;
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
@@ -18,7 +20,7 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, target: Targe
                     continue;
                 };
                 for old in VALUES {
-                    let mut changes = vec![(result, value, value), (bit, old, value ^ negated)];
+                    let mut changes = smallvec![(result, value, value), (bit, old, value ^ negated)];
                     changes.extend_from_slice(given);
                     step.push(changes);
                 }

@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use smallvec::{SmallVec, smallvec};
+
 use super::provenance::{PlaceRole, Register, TransitionRole};
-use super::weaver::{Bit, Change, Weaver};
+use super::weaver::{Bit, Change, Changes, Weaver};
 use crate::flat::Hazard;
 use crate::net::{Arcs, PlaceId};
 use crate::semantics::VarId;
 
 /// What can happen in one step: each alternative moves control on if its bits have their old values.
-pub type Step = Vec<Vec<Change>>;
+pub type Step = Vec<Changes>;
 
 /// The subnet of one line in the making.
 pub struct Subnet<'a> {
@@ -104,8 +106,8 @@ impl<'a> Subnet<'a> {
     /// be named twice.
     pub fn step(&mut self, from: PlaceId, to: PlaceId, changes: &[Change]) {
         // A bit that keeps its value gives and gets the same token: a loop, which the builder takes for a read arc.
-        let mut consume = vec![from];
-        let mut produce = vec![to];
+        let mut consume: SmallVec<[PlaceId; 8]> = smallvec![from];
+        let mut produce: SmallVec<[PlaceId; 8]> = smallvec![to];
         self.name.clear();
         self.name.push_str(self.weaver.place_name(from));
         for (i, &(bit, before, after)) in changes.iter().enumerate() {

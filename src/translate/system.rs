@@ -1,6 +1,7 @@
 //! Program, PLC cycle and plant as one net (seed paper, figures 7, 8, 10 and 11).
 
-use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::copy::{self, Source, Way};
 use super::domain::{Domain, Domains};
@@ -11,6 +12,7 @@ use super::subnet::Subnet;
 use super::weaver::{Bit, Weaver, Woven};
 use crate::flat::FlatProgram;
 use crate::net::{Arcs, Net, PlaceId, TransitionId};
+use crate::rows::Rows;
 use crate::semantics::{Role, VarId};
 
 /// A program in its plant, and the net of both.
@@ -28,14 +30,17 @@ pub struct System {
     pub places: Vec<PlaceRole>,
     /// What each transition stands for.
     pub transitions: Vec<TransitionRole>,
-    /// The place of each role but [`PlaceRole::Plant`].
-    by_role: BTreeMap<PlaceRole, PlaceId>,
+    /// The place of each line, that of `End` the last.
+    lines: Vec<PlaceId>,
+    /// The position of the first place made for each line; last, of the first one made for the PLC's cycle.
+    within: Vec<usize>,
     /// The bits of each variable.
     variables: Vec<Vec<Bit>>,
     /// The bits of the current result.
     result: Vec<Bit>,
-    /// For each place, the transitions that move control from it; last, those that do not move control.
-    moves: Vec<Vec<TransitionId>>,
+    /// For each place, the transitions that move control from it; last, those that do not move control. The lists are built
+    /// when first asked for.
+    moves: OnceLock<Rows<TransitionId>>,
 }
 
 impl System {
@@ -51,21 +56,35 @@ impl System {
         declared_domains(&program, &plant, &mut domains);
         let mut weaver = Weaver::new(&program.name);
         let lines = user_places(&mut weaver, &program);
+        let mut within = Vec::with_capacity(lines.len());
         for (line, code) in program.code.iter().enumerate() {
+            within.push(weaver.place_count());
             instruction::translate(&mut Subnet::new(&mut weaver, line, &lines), code.instruction);
         }
+        within.push(weaver.place_count());
         system_program(&mut weaver, &program, &plant, &domains, (lines[0], lines[program.end()]));
         let Woven { net, places, transitions, variables, result } = weaver.build();
-        let by_role = places.iter().copied().zip(net.place_ids()).collect();
-        let moves = moves(&net, &places);
-        Self { program, plant, domains, net, places, transitions, by_role, variables, result, moves }
+        let moves = OnceLock::new();
+        Self { program, plant, domains, net, places, transitions, lines, within, variables, result, moves }
     }
 
     /// The place of a role that only one place has, if there is one. Not every line has a place for each of its hazards:
     /// none if it cannot happen there.
     #[must_use]
     pub fn find(&self, role: PlaceRole) -> Option<PlaceId> {
-        self.by_role.get(&role).copied()
+        let among = |mut places: Range<usize>| places.find(|&place| self.places[place] == role).map(PlaceId::at);
+        match role {
+            PlaceRole::Bit { variable, bit, value } => {
+                Some(self.variables.get(variable.0)?.get(bit as usize)?.place(value))
+            }
+            PlaceRole::Result { bit, value } => Some(self.result.get(bit as usize)?.place(value)),
+            PlaceRole::Line(line) => self.lines.get(line).copied(),
+            PlaceRole::Within(line, _) | PlaceRole::Hazard(line, _) => {
+                among(*self.within.get(line)?..*self.within.get(line + 1)?)
+            }
+            PlaceRole::Register { .. } => among(0..self.places.len()),
+            _ => among(*self.within.last()?..self.places.len()),
+        }
     }
 
     /// The value of a variable where `is_marked` says which places have a token. `None` if not exactly one place of each of
@@ -93,13 +112,21 @@ impl System {
     /// The transitions that take the token of control from a place, or read it there: a jump to its own line.
     #[must_use]
     pub fn moves(&self, control: PlaceId) -> &[TransitionId] {
-        &self.moves[control.index()]
+        &self.all_moves()[control.index()]
     }
 
     /// The transitions that have nothing to do with control: the plant's.
     #[must_use]
     pub fn plant_moves(&self) -> &[TransitionId] {
-        self.moves.last().map_or(&[], Vec::as_slice)
+        &self.all_moves()[self.places.len()]
+    }
+
+    fn all_moves(&self) -> &Rows<TransitionId> {
+        let from = |id| {
+            let control = self.net.arcs(id).preset().find(|place| self.places[place.index()].is_control());
+            (control.map_or(self.places.len(), PlaceId::index), id)
+        };
+        self.moves.get_or_init(|| Rows::group(self.places.len() + 1, self.net.transition_ids().map(from)))
     }
 
     /// The place of a role that only one place has.
@@ -108,7 +135,7 @@ impl System {
     /// If there is none, as for a line the program does not have.
     #[must_use]
     pub fn place(&self, role: PlaceRole) -> PlaceId {
-        self.by_role[&role]
+        self.find(role).expect("only roles that have a place are asked for")
     }
 
     /// How many places and transitions belong to a part.
@@ -134,16 +161,6 @@ impl System {
     pub fn transitions_of(&self, role: TransitionRole) -> impl Iterator<Item = TransitionId> {
         self.net.transition_ids().filter(move |id| self.transitions[id.index()] == role)
     }
-}
-
-/// For each place, the transitions that move control from it, and those that do not move control.
-fn moves(net: &Net, places: &[PlaceRole]) -> Vec<Vec<TransitionId>> {
-    let mut moves = vec![Vec::new(); net.places().len() + 1];
-    for id in net.transition_ids() {
-        let control = net.arcs(id).preset().find(|place| places[place.index()].is_control());
-        moves[control.map_or(net.places().len(), |place| place.index())].push(id);
-    }
-    moves
 }
 
 /// The value of some bits, from the lowest.

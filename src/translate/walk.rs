@@ -1,9 +1,12 @@
 //! Automata over bits: control that remembers something, like a carry, while it goes from bit to bit.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
+use std::hash::Hash;
+
+use rustc_hash::FxHashMap;
 
 use super::subnet::Subnet;
-use super::weaver::Change;
+use super::weaver::Changes;
 use crate::net::PlaceId;
 
 /// What an automaton does in a state.
@@ -13,14 +16,19 @@ pub enum Stage<S> {
     /// Nothing; it is in this state already.
     Same(S),
     /// It goes on in a state for each alternative of bits.
-    Branch(Vec<(Vec<Change>, S)>),
+    Branch(Vec<(Changes, S)>),
 }
 
 impl Subnet<'_> {
     /// Adds a place for each state that the automaton can come to from `start`, which is `from`, and a transition for each
     /// alternative. `rule` says what happens in a state; it is asked at least once for each.
-    pub fn walk<S: Ord + Clone>(&mut self, from: PlaceId, start: S, mut rule: impl FnMut(&mut Self, &S) -> Stage<S>) {
-        let mut places: BTreeMap<S, PlaceId> = BTreeMap::new();
+    pub fn walk<S: Eq + Hash + Clone>(
+        &mut self,
+        from: PlaceId,
+        start: S,
+        mut rule: impl FnMut(&mut Self, &S) -> Stage<S>,
+    ) {
+        let mut places: FxHashMap<S, PlaceId> = FxHashMap::default();
         let mut queue = VecDeque::new();
         match self.settle(start, &mut rule) {
             (_, Stage::Leave(to)) => self.step(from, to, &[]),

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use smallvec::SmallVec;
+
 use super::provenance::{PlaceRole, Register, TransitionRole};
 use crate::flat::Variable;
 use crate::net::{Arcs, Builder, Net, PlaceId, TransitionId};
@@ -12,25 +14,28 @@ pub const VALUES: [bool; 2] = [false, true];
 
 /// Two complementary places, exactly one of them marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Bit(
-    /// The places for 0 and 1.
-    [PlaceId; 2],
-);
+pub struct Bit {
+    /// The place for 0; that for 1 is the next one.
+    zero: PlaceId,
+}
 
 impl Bit {
     /// The place that is marked while the bit has this value.
     pub fn place(self, value: bool) -> PlaceId {
-        self.0[usize::from(value)]
+        PlaceId::at(self.zero.index() + usize::from(value))
     }
 
     /// Both places, that for 0 first.
     pub fn places(self) -> [PlaceId; 2] {
-        self.0
+        VALUES.map(|value| self.place(value))
     }
 }
 
 /// One bit in a step: its value before and after. A bit that keeps its value is only read.
 pub type Change = (Bit, bool, bool);
+
+/// What one transition does with bits. Most change one and read another.
+pub type Changes = SmallVec<[Change; 4]>;
 
 /// Builds a net and keeps what each node stands for.
 pub struct Weaver {
@@ -70,6 +75,11 @@ impl Weaver {
         self.builder.place(name, marked)
     }
 
+    /// How many places there are.
+    pub fn place_count(&self) -> usize {
+        self.place_roles.len()
+    }
+
     pub fn place_name(&self, place: PlaceId) -> &str {
         self.builder.place_name(place)
     }
@@ -100,10 +110,11 @@ impl Weaver {
     }
 
     fn bit(&mut self, name: &str, initial: bool, role: impl Fn(bool) -> PlaceRole) -> Bit {
-        Bit(VALUES.map(|value| {
+        let [zero, _] = VALUES.map(|value| {
             let place = format!("{name}={}", u8::from(value));
             self.place(&place, value == initial, role(value))
-        }))
+        });
+        Bit { zero }
     }
 
     /// The bits of a variable, from the lowest; those above are 0.

@@ -1,24 +1,26 @@
 //! The bits of an operand, each as the ways in which it can have a value.
 
+use smallvec::smallvec;
+
 use super::element;
 use super::subnet::{Step, Subnet};
-use super::weaver::{Bit, Change, VALUES};
+use super::weaver::{Bit, Change, Changes, VALUES};
 use crate::flat::{Operand, Target};
 use crate::semantics::Type;
 
 /// A bit that is read: what it can be, each time with the bits that must have the values they then have.
 #[derive(Clone, Debug)]
-pub struct Wire(pub Vec<(bool, Vec<Change>)>);
+pub struct Wire(pub Vec<(bool, Changes)>);
 
 impl Wire {
     /// A bit that is known.
     pub fn fixed(value: bool) -> Self {
-        Self(vec![(value, vec![])])
+        Self(vec![(value, smallvec![])])
     }
 
     /// A bit of the net.
     pub fn of(bit: Bit) -> Self {
-        Self(VALUES.map(|value| (value, vec![(bit, value, value)])).into())
+        Self(VALUES.map(|value| (value, smallvec![(bit, value, value)])).into())
     }
 
     /// The value, if it is known.
@@ -47,15 +49,14 @@ impl Wire {
     }
 
     /// What a state goes on to for each value.
-    pub fn branch<S>(&self, to: impl Fn(bool) -> S) -> Vec<(Vec<Change>, S)> {
+    pub fn branch<S>(&self, to: impl Fn(bool) -> S) -> Vec<(Changes, S)> {
         self.0.iter().map(|(value, given)| (given.clone(), to(*value))).collect()
     }
 }
 
 /// A change under conditions.
-pub fn with(change: Change, given: &[Change]) -> Vec<Change> {
-    let mut changes = Vec::with_capacity(1 + given.len());
-    changes.push(change);
+pub fn with(change: Change, given: &[Change]) -> Changes {
+    let mut changes: Changes = smallvec![change];
     changes.extend_from_slice(given);
     changes
 }
