@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use super::address::{self, Area, Location};
 use super::project::Project;
 use super::shape::{PouId, Shape, elements};
-use super::symbols::Symbol;
+use super::symbols::{Symbol, Symbols};
 use crate::diagnostic::{Code, Diagnostic};
 
 /// Where an address lies: an area, the leading numbers of a hierarchical address, and bits.
@@ -27,7 +27,7 @@ struct Place<'a> {
 /// Reports global variables, and variables of the units that are needed, which lie in the same place.
 pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic>) {
     let symbols = needed.iter().map(|&id| project.symbols(id)).chain([&project.globals]);
-    let mut places: Vec<Place<'_>> = symbols.flat_map(|symbols| symbols.list()).filter_map(place).collect();
+    let mut places: Vec<Place<'_>> = symbols.flat_map(Symbols::list).filter_map(place).collect();
     places.sort_by_key(|place| place.location.span);
     let mut pairs: Vec<(usize, usize)> = overlaps(&places, |place| place.by_bytes);
     pairs.extend(overlaps(&places, |place| place.by_size));
