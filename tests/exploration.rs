@@ -26,7 +26,7 @@ struct Naive {
 }
 
 fn tokens(net: &Net) -> Tokens {
-    net.places().map(|place| u8::from(place.marked)).collect()
+    net.places().map(|place| u8::from(place.is_marked())).collect()
 }
 
 /// Fires a transition; `None` if it is not enabled.

@@ -162,7 +162,11 @@ fn the_subnet_of_every_instruction_is_drawn_whole_and_legible() {
             arcs(&system, |role| role == TransitionRole::Line(line)),
             "{text}"
         );
-        assert_eq!(shapes.tokens, places.iter().filter(|&&&place| system.net.place(place).marked).count(), "{text}");
+        assert_eq!(
+            shapes.tokens,
+            places.iter().filter(|&&&place| system.net.place(place).is_marked()).count(),
+            "{text}"
+        );
     }
 }
 

@@ -46,7 +46,7 @@ fn assert_safe(system: &System) {
     let invariants = invariants(system);
     let mut sums = vec![0; 1 + invariants.iter().max().unwrap()];
     for place in system.net.place_ids() {
-        sums[invariants[place.index()]] += u8::from(system.net.place(place).marked);
+        sums[invariants[place.index()]] += u8::from(system.net.place(place).is_marked());
     }
     assert!(sums.iter().all(|&sum| sum == 1));
     for transition in system.net.transitions() {

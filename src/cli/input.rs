@@ -99,6 +99,18 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
     }
 }
 
+/// Reads a net that can be safe.
+fn safe_net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
+    let (net, source) = net(path, console)?;
+    match net.safe() {
+        Ok(net) => Ok((net, source)),
+        Err(diagnostics) => {
+            console.diagnostics(&diagnostics, &source);
+            Err(Failure::Reported)
+        }
+    }
+}
+
 /// A program in its plants, free inputs having any value.
 pub fn system<P: AsRef<Path>>(
     path: &Path,
@@ -119,7 +131,7 @@ pub fn parts<P: AsRef<Path>>(
 ) -> Result<(Program, Plant), Failure> {
     let program = program(path, reading, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
-    let nets: Vec<_> = plants.iter().map(|plant| net(plant.as_ref(), console)).collect();
+    let nets: Vec<_> = plants.iter().map(|plant| safe_net(plant.as_ref(), console)).collect();
     let program = program?;
     let mut plant = Plant::default();
     let mut failed = false;

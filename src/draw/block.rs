@@ -142,7 +142,7 @@ impl<'a> Block<'a> {
             for place in places {
                 let Some(style) = style(*place) else { continue };
                 let at = positions[place];
-                sheet.place(at, style, net.place(*place).marked);
+                sheet.place(at, style, net.place(*place).is_marked());
                 let label = At { x: at.x + direction * (RADIUS + LABEL_GAP), y: at.y };
                 sheet.text(label, anchor, net.place(*place).name, false);
             }

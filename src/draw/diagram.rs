@@ -197,7 +197,7 @@ impl Piece<'_> {
                 let sides = [(centre, Anchor::End, -1.0), (centre + 3.0 * RADIUS, Anchor::Start, 1.0)];
                 for (&place, (x, anchor, direction)) in places.iter().zip(sides) {
                     let place = system.net.place(place);
-                    sheet.place(At { x, y: at.y }, PlaceStyle::Own, place.marked);
+                    sheet.place(At { x, y: at.y }, PlaceStyle::Own, place.is_marked());
                     let label = At { x: x + direction * (RADIUS + LABEL_GAP), y: at.y };
                     sheet.text(label, anchor, place.name, false);
                 }

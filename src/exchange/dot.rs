@@ -34,18 +34,33 @@ pub fn write(net: &Net) -> String {
     out += "  node [fontname=\"Helvetica\", fontsize=10];\n";
     out += "  node [shape=circle, margin=0.02];\n";
     for (i, place) in net.places().enumerate() {
-        let token = if place.marked { "●\\n" } else { "" };
+        let token = match place.tokens {
+            0 => String::new(),
+            1 => "●\\n".to_owned(),
+            n => format!("{n}\\n"),
+        };
         let _ = writeln!(out, "  p{i} [label=\"{token}{}\"];", escaped(place.name));
     }
     out += "  node [shape=box, height=0.3];\n";
     for (i, transition) in net.transitions().enumerate() {
         let _ = writeln!(out, "  t{i} [label=\"{}\"];", escaped(transition.name));
     }
-    for (i, transition) in net.transitions().enumerate() {
-        let arcs = transition.arcs;
-        arcs.consume.iter().for_each(|place| _ = writeln!(out, "  p{} -> t{i};", place.index()));
-        arcs.read.iter().for_each(|place| _ = writeln!(out, "  p{} -> t{i} [arrowhead=dot];", place.index()));
-        arcs.produce.iter().for_each(|place| _ = writeln!(out, "  t{i} -> p{};", place.index()));
+    for (i, id) in net.transition_ids().enumerate() {
+        let mut arc = |from: String, to: String, attributes: &[String]| {
+            let list = if attributes.is_empty() { String::new() } else { format!(" [{}]", attributes.join(", ")) };
+            let _ = writeln!(out, "  {from} -> {to}{list};");
+        };
+        let weight = |weight: u64| (weight > 1).then(|| format!("label={weight}"));
+        for (place, n) in net.taken(id) {
+            arc(format!("p{}", place.index()), format!("t{i}"), weight(n).as_slice());
+        }
+        for (place, n) in net.read(id) {
+            let attributes: Vec<String> = ["arrowhead=dot".to_owned()].into_iter().chain(weight(n)).collect();
+            arc(format!("p{}", place.index()), format!("t{i}"), &attributes);
+        }
+        for (place, n) in net.put(id) {
+            arc(format!("t{i}"), format!("p{}", place.index()), weight(n).as_slice());
+        }
     }
     out + "}\n"
 }

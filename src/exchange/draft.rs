@@ -3,20 +3,27 @@
 use std::path::Path;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::net::{Arcs, Builder, Located, PlaceId};
+use crate::net::{Builder, Located, PlaceId};
 use crate::source::{Source, Span};
+
+/// The most tokens a place may begin with, and the greatest weight: sums of many are still numbers.
+pub const MAX_COUNT: u64 = 1 << 40;
 
 /// Places and transitions in the order of the file. Arcs name places by position.
 #[derive(Default)]
 pub struct Draft {
     pub places: Vec<DraftPlace>,
     pub transitions: Vec<DraftTransition>,
+    /// The ids of both in the file, if the format has ids.
+    pub ids: Option<(Vec<String>, Vec<String>)>,
+    /// What no safe net has.
+    pub not_safe: Vec<Diagnostic>,
 }
 
 pub struct DraftPlace {
     pub name: String,
     pub span: Span,
-    pub marked: bool,
+    pub tokens: u64,
 }
 
 pub struct DraftTransition {
@@ -27,10 +34,11 @@ pub struct DraftTransition {
     pub read: Vec<Arc>,
 }
 
-/// One end of an arc: a place, and where the arc stands.
+/// One end of an arc: a place, the arc's weight, and where it stands.
 #[derive(Clone, Copy)]
 pub struct Arc {
     pub place: usize,
+    pub weight: u64,
     pub span: Span,
 }
 
@@ -42,8 +50,13 @@ impl DraftTransition {
 }
 
 impl Draft {
-    /// Says which arcs are drawn twice: together they have the weight 2.
-    pub fn parallel_arcs(&self, diagnostics: &mut Vec<Diagnostic>) {
+    /// Notes something that no safe net has.
+    pub fn refuse(&mut self, span: Span, message: String, help: &str) {
+        self.not_safe.push(Diagnostic::new(Code::NetNotOrdinary, span, message).help(help));
+    }
+
+    /// Notes which arcs are drawn twice: together they have the weight 2.
+    fn parallel_arcs(&mut self) {
         for transition in &self.transitions {
             for list in [&transition.consume, &transition.produce, &transition.read] {
                 let mut sorted = list.clone();
@@ -51,7 +64,7 @@ impl Draft {
                 for pair in sorted.windows(2).filter(|pair| pair[0].place == pair[1].place) {
                     let place = &self.places[pair[0].place].name;
                     let message = format!("two arcs join `{place}` and `{}` in the same direction", transition.name);
-                    diagnostics.push(
+                    self.not_safe.push(
                         Diagnostic::new(Code::NetNotOrdinary, pair[1].span, message)
                             .here("this makes a weight of 2")
                             .also(pair[0].span, "the first is here")
@@ -63,18 +76,24 @@ impl Draft {
     }
 
     /// The net, with the spans of its nodes.
-    pub fn finish(self, name: String) -> Located {
+    pub fn finish(mut self, name: String) -> Located {
+        self.parallel_arcs();
+        self.not_safe.sort_by_key(Diagnostic::span);
         let mut builder = Builder::new(name);
-        let spans = self.places.iter().map(|place| place.span).collect();
         let places: Vec<PlaceId> =
-            self.places.into_iter().map(|place| builder.place(place.name, place.marked)).collect();
-        let ids = |arcs: &[Arc]| arcs.iter().map(|arc| places[arc.place]).collect::<Vec<PlaceId>>();
-        let transitions = self.transitions.iter().map(|transition| transition.span).collect();
-        for transition in self.transitions {
-            let DraftTransition { name, consume, produce, read, .. } = transition;
-            builder.transition(name, Arcs { consume: &ids(&consume), produce: &ids(&produce), read: &ids(&read) });
+            self.places.iter().map(|place| builder.place_with(&place.name, place.tokens)).collect();
+        let arcs =
+            |list: &[Arc]| -> Vec<(PlaceId, u64)> { list.iter().map(|arc| (places[arc.place], arc.weight)).collect() };
+        for DraftTransition { name, consume, produce, read, .. } in &self.transitions {
+            builder.weighted(name, &arcs(consume), &arcs(produce), &arcs(read));
         }
-        Located { net: builder.build(), places: spans, transitions }
+        Located {
+            net: builder.build(),
+            places: self.places.iter().map(|place| place.span).collect(),
+            transitions: self.transitions.iter().map(|transition| transition.span).collect(),
+            ids: self.ids,
+            not_safe: self.not_safe,
+        }
     }
 }
 

@@ -93,7 +93,7 @@ impl StateSpace for MarkingSpace<'_> {
 
     fn initial(&self, visit: &mut dyn FnMut(Step<'_>)) {
         let mut state = vec![0; self.words()];
-        for place in self.net.place_ids().filter(|&place| self.net.place(place).marked) {
+        for place in self.net.place_ids().filter(|&place| self.net.place(place).is_marked()) {
             state[place.index() / 64] |= 1 << (place.index() % 64);
         }
         visit(Step::To(&state));

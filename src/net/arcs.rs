@@ -2,15 +2,23 @@
 
 use super::{PlaceId, TransitionId};
 
-/// The arcs of a transition.
+/// The arcs of a transition, where loops have become read arcs. In an ordinary net each has the weight 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arcs<'n> {
-    /// Preset without read places: a token is taken from each.
+    /// Preset without read places: tokens are taken from each.
     pub consume: &'n [PlaceId],
-    /// Postset: a token is put on each.
+    /// Postset: tokens are put on each.
     pub produce: &'n [PlaceId],
     /// Places that must be marked and stay so.
     pub read: &'n [PlaceId],
+}
+
+/// The weights of a transition's arcs, list by list; empty where all are 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Weights<'n> {
+    pub consume: &'n [u64],
+    pub produce: &'n [u64],
+    pub read: &'n [u64],
 }
 
 impl<'n> Arcs<'n> {
@@ -24,37 +32,60 @@ impl<'n> Arcs<'n> {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct ArcTable {
     places: Vec<PlaceId>,
+    /// The weight of each arc; empty while all are 1.
+    weights: Vec<u64>,
     /// Where the three lists of each transition end. Each begins where the one before it ends.
     ends: Vec<[u32; 3]>,
 }
 
 impl ArcTable {
-    /// Adds the arcs of the next transition, each list in ascending order.
+    /// Adds the arcs of the next transition, each list in ascending order, with their weights.
     pub fn push(
         &mut self,
-        consume: impl Iterator<Item = PlaceId>,
-        produce: impl Iterator<Item = PlaceId>,
-        read: impl Iterator<Item = PlaceId>,
+        consume: impl Iterator<Item = (PlaceId, u64)>,
+        produce: impl Iterator<Item = (PlaceId, u64)>,
+        read: impl Iterator<Item = (PlaceId, u64)>,
     ) -> TransitionId {
-        self.places.extend(consume);
-        let consumed = self.end();
-        self.places.extend(produce);
-        let produced = self.end();
-        self.places.extend(read);
-        self.ends.push([consumed, produced, self.end()]);
+        let ends = [self.extend(consume), self.extend(produce), self.extend(read)];
+        self.ends.push(ends);
         TransitionId::at(self.ends.len() - 1)
     }
 
-    fn end(&self) -> u32 {
+    /// Adds a list, and says where it ends.
+    fn extend(&mut self, arcs: impl Iterator<Item = (PlaceId, u64)>) -> u32 {
+        for (place, weight) in arcs {
+            if weight != 1 && self.weights.is_empty() {
+                self.weights.resize(self.places.len(), 1);
+            }
+            if weight != 1 || !self.weights.is_empty() {
+                self.weights.push(weight);
+            }
+            self.places.push(place);
+        }
         u32::try_from(self.places.len()).expect("a net has fewer than 2³² arcs")
     }
 
-    pub fn get(&self, transition: TransitionId) -> Arcs<'_> {
+    fn lists<'n, T>(&self, of: &'n [T], transition: TransitionId) -> [&'n [T]; 3] {
         let position = transition.index();
         let start = position.checked_sub(1).map_or(0, |before| self.ends[before][2]);
         let [consumed, produced, read] = self.ends[position];
-        let list = |from: u32, to: u32| &self.places[from as usize..to as usize];
-        Arcs { consume: list(start, consumed), produce: list(consumed, produced), read: list(produced, read) }
+        let list = |from: u32, to: u32| of.get(from as usize..to as usize).unwrap_or_default();
+        [list(start, consumed), list(consumed, produced), list(produced, read)]
+    }
+
+    pub fn get(&self, transition: TransitionId) -> Arcs<'_> {
+        let [consume, produce, read] = self.lists(&self.places, transition);
+        Arcs { consume, produce, read }
+    }
+
+    pub fn weights(&self, transition: TransitionId) -> Weights<'_> {
+        let [consume, produce, read] = self.lists(&self.weights, transition);
+        Weights { consume, produce, read }
+    }
+
+    /// Whether all arcs have the weight 1.
+    pub fn is_ordinary(&self) -> bool {
+        self.weights.is_empty()
     }
 
     /// How many transitions there are.

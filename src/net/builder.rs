@@ -1,5 +1,7 @@
 //! Nets are built place by place and transition by transition, then never changed.
 
+use std::collections::BTreeMap;
+
 use super::{Arcs, Net, PlaceId, TransitionId};
 
 /// Builds a [`Net`].
@@ -28,9 +30,14 @@ impl Builder {
 
     /// Adds a place.
     pub fn place(&mut self, name: impl AsRef<str>, marked: bool) -> PlaceId {
+        self.place_with(name, u64::from(marked))
+    }
+
+    /// Adds a place with this many tokens.
+    pub fn place_with(&mut self, name: impl AsRef<str>, tokens: u64) -> PlaceId {
         self.net.place_names.push(name.as_ref());
-        self.net.marked.push(marked);
-        PlaceId::at(self.net.marked.len() - 1)
+        self.net.tokens.push(tokens);
+        PlaceId::at(self.net.tokens.len() - 1)
     }
 
     /// The name of a place that has been added.
@@ -60,6 +67,35 @@ impl Builder {
         )
     }
 
+    /// Adds a transition with weights: what it takes and puts, and what must be there without being taken. Arcs that join
+    /// the same nodes add up.
+    pub fn weighted(
+        &mut self,
+        name: impl AsRef<str>,
+        take: &[(PlaceId, u64)],
+        put: &[(PlaceId, u64)],
+        test: &[(PlaceId, u64)],
+    ) -> TransitionId {
+        let mut needs: BTreeMap<PlaceId, [u64; 3]> = BTreeMap::new();
+        for (list, position) in [(take, 0), (put, 1), (test, 2)] {
+            for &(place, weight) in list {
+                let sum = &mut needs.entry(place).or_default()[position];
+                *sum = sum.saturating_add(weight);
+            }
+        }
+        for [take, put, test] in needs.values_mut() {
+            let pre = (*take).max(*test);
+            let post = (pre - *take).saturating_add(*put);
+            let read = pre.min(post);
+            [*take, *put, *test] = [pre - read, post - read, read];
+        }
+        let list = |position: usize| {
+            needs.iter().map(move |(&place, weights)| (place, weights[position])).filter(|&(_, weight)| weight > 0)
+        };
+        self.net.transition_names.push(name.as_ref());
+        self.net.arcs.push(list(0), list(1), list(2))
+    }
+
     /// The finished net.
     #[must_use]
     pub fn build(self) -> Net {
@@ -68,6 +104,6 @@ impl Builder {
 }
 
 /// The places of certain uses.
-fn places(uses: &[(PlaceId, Use)], is_wanted: impl Fn(Use) -> bool) -> impl Iterator<Item = PlaceId> {
-    uses.iter().filter(move |(_, uses)| is_wanted(*uses)).map(|&(place, _)| place)
+fn places(uses: &[(PlaceId, Use)], is_wanted: impl Fn(Use) -> bool) -> impl Iterator<Item = (PlaceId, u64)> {
+    uses.iter().filter(move |(_, uses)| is_wanted(*uses)).map(|&(place, _)| (place, 1))
 }

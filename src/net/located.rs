@@ -1,6 +1,7 @@
 //! A net together with where its nodes stand in the file it was read from.
 
 use super::{Net, PlaceId, TransitionId};
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
 /// A net read from a text, so that diagnostics can point at its nodes.
@@ -12,9 +13,21 @@ pub struct Located {
     pub places: Vec<Span>,
     /// Where each transition is defined.
     pub transitions: Vec<Span>,
+    /// The ids of places and transitions in the file, by position; none where the format knows names only.
+    pub ids: Option<(Vec<String>, Vec<String>)>,
+    /// What no safe net has, like weights, each with where it stands.
+    pub not_safe: Vec<Diagnostic>,
 }
 
 impl Located {
+    /// The net, if it can be safe.
+    ///
+    /// # Errors
+    /// Weights and places with several tokens, each where it stands.
+    pub fn safe(self) -> Result<Self, Vec<Diagnostic>> {
+        if self.not_safe.is_empty() { Ok(self) } else { Err(self.not_safe) }
+    }
+
     /// Where a place stands.
     #[must_use]
     pub fn place_span(&self, place: PlaceId) -> Span {

@@ -32,7 +32,7 @@ impl Net {
     #[must_use]
     pub fn initial_marking(&self) -> Marking {
         let mut marking = FixedBitSet::with_capacity(self.places().len());
-        for id in self.place_ids().filter(|&id| self.place(id).marked) {
+        for id in self.place_ids().filter(|&id| self.place(id).is_marked()) {
             marking.insert(id.index());
         }
         Marking(marking)

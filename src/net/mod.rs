@@ -1,9 +1,12 @@
-//! Safe place/transition nets with read arcs, and their token game.
+//! Place/transition nets, and their token game.
 //!
-//! A net is a tuple (P, T, F, R, m₀): places, transitions, arcs of weight 1, read arcs, and an initial marking of at most
-//! one token a place. A transition is enabled if its preset and the places it reads are marked; firing takes the tokens
-//! of the preset and puts one on each place of the postset. Under interleaving a read arc is a loop of two arcs, so the
-//! builder takes every loop for a read arc.
+//! A net is a tuple (P, T, F, W, m₀): places, transitions, arcs, their weights, and an initial marking. A transition is
+//! enabled if each place of its preset has as many tokens as the arc from it weighs; firing takes them, and puts as many on
+//! each place of the postset as the arc to it weighs. What a transition takes from a place and puts back at once is kept as
+//! a read arc, which under interleaving is the same.
+//!
+//! The nets of programs are *safe*: every arc has weight 1, and no reachable marking has two tokens on a place. For these
+//! there is [`Marking`]; for any net, [`Tokens`].
 //!
 //! ```
 //! use petril::net::{Arcs, Builder};
@@ -23,11 +26,14 @@ mod builder;
 mod located;
 mod marking;
 mod names;
+mod tokens;
+mod weighted;
 
 pub use arcs::Arcs;
 pub use builder::Builder;
 pub use located::Located;
 pub use marking::{Marking, NotSafe};
+pub use tokens::Tokens;
 
 use arcs::ArcTable;
 use names::Names;
@@ -73,8 +79,16 @@ impl TransitionId {
 pub struct Place<'n> {
     /// Its name, unique in the net.
     pub name: &'n str,
-    /// Whether it is marked at the beginning.
-    pub marked: bool,
+    /// The tokens it has at the beginning.
+    pub tokens: u64,
+}
+
+impl Place<'_> {
+    /// Whether it has a token at the beginning.
+    #[must_use]
+    pub fn is_marked(&self) -> bool {
+        self.tokens > 0
+    }
 }
 
 /// A transition.
@@ -91,7 +105,7 @@ pub struct Transition<'n> {
 pub struct Net {
     name: String,
     place_names: Names,
-    marked: Vec<bool>,
+    tokens: Vec<u64>,
     transition_names: Names,
     arcs: ArcTable,
 }
@@ -99,7 +113,7 @@ pub struct Net {
 impl Net {
     fn empty(name: String) -> Self {
         let (place_names, transition_names) = (Names::default(), Names::default());
-        Self { name, place_names, marked: Vec::new(), transition_names, arcs: ArcTable::default() }
+        Self { name, place_names, tokens: Vec::new(), transition_names, arcs: ArcTable::default() }
     }
 
     /// The name of the net.
@@ -120,7 +134,7 @@ impl Net {
 
     /// The ids of all places.
     pub fn place_ids(&self) -> impl ExactSizeIterator<Item = PlaceId> + Clone + use<> {
-        (0..self.marked.len()).map(PlaceId::at)
+        (0..self.tokens.len()).map(PlaceId::at)
     }
 
     /// The ids of all transitions.
@@ -131,7 +145,7 @@ impl Net {
     /// A place.
     #[must_use]
     pub fn place(&self, id: PlaceId) -> Place<'_> {
-        Place { name: self.place_names.get(id.index()), marked: self.marked[id.index()] }
+        Place { name: self.place_names.get(id.index()), tokens: self.tokens[id.index()] }
     }
 
     /// A transition.
@@ -145,6 +159,37 @@ impl Net {
     #[must_use]
     pub fn arcs(&self, id: TransitionId) -> Arcs<'_> {
         self.arcs.get(id)
+    }
+
+    /// What a transition takes and does not put back: places, ascending, with how many tokens.
+    pub fn taken(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
+        weighted::list(self.arcs(id).consume, self.arcs.weights(id).consume)
+    }
+
+    /// What a transition puts besides what it puts back.
+    pub fn put(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
+        weighted::list(self.arcs(id).produce, self.arcs.weights(id).produce)
+    }
+
+    /// What a transition needs besides what it takes: it puts it back.
+    pub fn read(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
+        weighted::list(self.arcs(id).read, self.arcs.weights(id).read)
+    }
+
+    /// The arcs to a transition: the places it needs tokens on, ascending, with how many.
+    pub fn pre(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
+        weighted::merge(self.taken(id), self.read(id))
+    }
+
+    /// The arcs from a transition: the places it puts tokens on, ascending, with how many.
+    pub fn post(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
+        weighted::merge(self.put(id), self.read(id))
+    }
+
+    /// Whether every arc has the weight 1, and no place more than one token at the beginning.
+    #[must_use]
+    pub fn is_ordinary(&self) -> bool {
+        self.arcs.is_ordinary() && self.tokens.iter().all(|&tokens| tokens <= 1)
     }
 
     /// The place of a name.

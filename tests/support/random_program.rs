@@ -85,7 +85,13 @@ pub fn device() -> impl Strategy<Value = Located> {
         }
         let net = builder.build();
         let (places, transitions) = (net.places().len(), net.transitions().len());
-        Located { net, places: vec![Span::default(); places], transitions: vec![Span::default(); transitions] }
+        Located {
+            net,
+            places: vec![Span::default(); places],
+            transitions: vec![Span::default(); transitions],
+            ids: None,
+            not_safe: Vec::new(),
+        }
     })
 }
 

@@ -50,7 +50,7 @@ impl Game {
             moves.collect()
         });
         let moves = moves.collect();
-        let marked = system.net.place_ids().map(|place| system.net.place(place).marked).collect();
+        let marked = system.net.place_ids().map(|place| system.net.place(place).is_marked()).collect();
         let control = system.place(PlaceRole::Idle).index();
         let roles = system.places.clone();
         Self { system, marked, control, moves, roles, hazards: Vec::new(), firings: 0 }

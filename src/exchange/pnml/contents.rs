@@ -4,6 +4,7 @@ use roxmltree::Node;
 
 use super::label::{number, required, text};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::exchange::draft::Draft;
 use crate::xml::{Text, attribute, elements, tag, tag_span};
 
 /// Places or transitions.
@@ -19,7 +20,7 @@ pub struct Item {
     pub id: Text,
     pub name: Option<Text>,
     pub kind: Kind,
-    pub marked: bool,
+    pub tokens: u64,
     /// The node a reference node stands for.
     pub stands_for: Option<Text>,
 }
@@ -28,6 +29,7 @@ pub struct Item {
 pub struct Arc {
     pub source: Text,
     pub target: Text,
+    pub weight: u64,
 }
 
 /// Everything on all pages of a net, page by page.
@@ -40,8 +42,8 @@ pub struct Contents {
 }
 
 impl Contents {
-    /// Goes through a net. Pages wait in a list for their turn, so that nesting costs no recursion.
-    pub fn of(net: Node<'_, '_>, diagnostics: &mut Vec<Diagnostic>) -> Self {
+    /// Goes through a net; what no safe net has is noted in the draft. Pages wait in a list for their turn, so that nesting costs no recursion.
+    pub fn of(net: Node<'_, '_>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut contents = Self::default();
         let mut pages = vec![net];
         let mut next = 0;
@@ -51,11 +53,11 @@ impl Contents {
             for element in elements(page) {
                 match tag(element) {
                     "page" => pages.push(element),
-                    "place" => contents.item(element, Kind::Place, false, diagnostics),
-                    "transition" => contents.item(element, Kind::Transition, false, diagnostics),
-                    "referencePlace" => contents.item(element, Kind::Place, true, diagnostics),
-                    "referenceTransition" => contents.item(element, Kind::Transition, true, diagnostics),
-                    "arc" => contents.arc(element, diagnostics),
+                    "place" => contents.item(element, Kind::Place, false, draft, diagnostics),
+                    "transition" => contents.item(element, Kind::Transition, false, draft, diagnostics),
+                    "referencePlace" => contents.item(element, Kind::Place, true, draft, diagnostics),
+                    "referenceTransition" => contents.item(element, Kind::Transition, true, draft, diagnostics),
+                    "arc" => contents.arc(element, draft, diagnostics),
                     "name" | "graphics" | "toolspecific" => {}
                     _ => foreign(element, page, diagnostics),
                 }
@@ -64,17 +66,24 @@ impl Contents {
         contents
     }
 
-    fn item(&mut self, element: Node<'_, '_>, kind: Kind, is_reference: bool, diagnostics: &mut Vec<Diagnostic>) {
+    fn item(
+        &mut self,
+        element: Node<'_, '_>,
+        kind: Kind,
+        is_reference: bool,
+        draft: &mut Draft,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
         let id = required(element, "id", diagnostics);
         let stands_for = if is_reference { required(element, "ref", diagnostics) } else { None };
         let mut name = None;
-        let mut marked = false;
+        let mut tokens = 0;
         for label in elements(element) {
             match tag(label) {
                 "name" => name = text(label).filter(|name| !name.text.is_empty()),
                 "graphics" | "toolspecific" => {}
                 "initialMarking" if kind == Kind::Place && !is_reference => {
-                    marked = marking(label, name.as_ref().or(id.as_ref()), diagnostics);
+                    tokens = marking(label, name.as_ref().or(id.as_ref()), draft, diagnostics);
                 }
                 _ => foreign(label, element, diagnostics),
             }
@@ -82,44 +91,46 @@ impl Contents {
         if let Some(id) = id
             && is_reference == stands_for.is_some()
         {
-            self.items.push(Item { id, name, kind, marked, stands_for });
+            self.items.push(Item { id, name, kind, tokens, stands_for });
         }
     }
 
-    fn arc(&mut self, element: Node<'_, '_>, diagnostics: &mut Vec<Diagnostic>) {
+    fn arc(&mut self, element: Node<'_, '_>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) {
         self.other_ids.extend(attribute(element, "id"));
         let ends = ["source", "target"].map(|end| required(element, end, diagnostics));
+        let mut weight = 1;
         for label in elements(element) {
             match tag(label) {
                 "name" | "graphics" | "toolspecific" => {}
-                "inscription" => inscription(label, diagnostics),
+                "inscription" => weight = inscription(label, draft, diagnostics),
                 _ => foreign(label, element, diagnostics),
             }
         }
         if let [Some(source), Some(target)] = ends {
-            self.arcs.push(Arc { source, target });
+            self.arcs.push(Arc { source, target, weight });
         }
     }
 }
 
-fn marking(label: Node<'_, '_>, place: Option<&Text>, diagnostics: &mut Vec<Diagnostic>) -> bool {
-    let Some(tokens) = number(label, diagnostics) else { return false };
-    if !matches!(tokens.text.as_str(), "0" | "1") {
+fn marking(label: Node<'_, '_>, place: Option<&Text>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> u64 {
+    let Some((tokens, span)) = number(label, diagnostics) else { return 0 };
+    if tokens > 1 {
         let place = place.map_or("", |place| &place.text);
-        let message = format!("the place `{place}` has {} tokens at the beginning", tokens.text);
-        let help = "a place of a safe net holds one token at most";
-        diagnostics.push(Diagnostic::new(Code::NetNotOrdinary, tokens.span, message).help(help));
+        let message = format!("the place `{place}` has {tokens} tokens at the beginning");
+        draft.refuse(span, message, "a place of a safe net holds one token at most");
     }
-    tokens.text == "1"
+    tokens
 }
 
-fn inscription(label: Node<'_, '_>, diagnostics: &mut Vec<Diagnostic>) {
-    let Some(weight) = number(label, diagnostics) else { return };
-    if weight.text != "1" {
-        let message = format!("this arc has weight {}", weight.text);
-        let help = "in a safe net every arc has weight 1";
-        diagnostics.push(Diagnostic::new(Code::NetNotOrdinary, weight.span, message).help(help));
+fn inscription(label: Node<'_, '_>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> u64 {
+    let Some((weight, span)) = number(label, diagnostics) else { return 1 };
+    if weight == 0 {
+        let help = "leave the arc out, or give it a weight from 1";
+        diagnostics.push(Diagnostic::new(Code::NetNotOrdinary, span, "this arc has weight 0").help(help));
+    } else if weight > 1 {
+        draft.refuse(span, format!("this arc has weight {weight}"), "in a safe net every arc has weight 1");
     }
+    weight
 }
 
 /// Refuses what other net types and other tools add, like inhibitor arcs: it could mean anything.

@@ -3,6 +3,7 @@
 use roxmltree::Node;
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::exchange::draft::MAX_COUNT;
 use crate::source::Span;
 use crate::xml::{Text, attribute, elements, tag, tag_span};
 
@@ -33,8 +34,8 @@ pub fn text(label: Node<'_, '_>) -> Option<Text> {
     Some(Text { text: content.trim().to_owned(), span })
 }
 
-/// The natural number of a label, without leading zeros.
-pub fn number(label: Node<'_, '_>, diagnostics: &mut Vec<Diagnostic>) -> Option<Text> {
+/// The natural number of a label, and where it stands.
+pub fn number(label: Node<'_, '_>, diagnostics: &mut Vec<Diagnostic>) -> Option<(u64, Span)> {
     let Some(Text { text, span }) = text(label) else {
         let message = format!("this `<{}>` has no `<text>`", tag(label));
         diagnostics.push(Diagnostic::new(Code::NetSyntax, tag_span(label), message));
@@ -45,6 +46,10 @@ pub fn number(label: Node<'_, '_>, diagnostics: &mut Vec<Diagnostic>) -> Option<
         diagnostics.push(Diagnostic::new(Code::NetSyntax, span, message));
         return None;
     }
-    let digits = text.trim_start_matches('0');
-    Some(Text { text: if digits.is_empty() { "0" } else { digits }.to_owned(), span })
+    let number = text.parse().ok().filter(|&number| number <= MAX_COUNT);
+    if number.is_none() {
+        let message = format!("{text} tokens are more than can be counted");
+        diagnostics.push(Diagnostic::new(Code::NetNotOrdinary, span, message).help("write a smaller number"));
+    }
+    Some((number?, span))
 }

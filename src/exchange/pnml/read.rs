@@ -20,16 +20,16 @@ pub(super) const NET_TYPE: &str = "http://www.pnml.org/version-2009/grammar/ptne
 /// it goes by that.
 ///
 /// # Errors
-/// XML that is not well-formed, documents with no net or several, ids that are given twice or to nobody, and what a safe
-/// place/transition net does not have: weights, several tokens, labels of other net types.
+/// XML that is not well-formed, documents with no net or several, ids that are given twice or to nobody, and what a
+/// place/transition net does not have: labels of other net types.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     let document = xml::document(source, Code::NetSyntax, "PNML").map_err(|diagnostic| vec![diagnostic])?;
     let net = the_net(&document).map_err(|diagnostic| vec![*diagnostic])?;
     let mut diagnostics = Vec::new();
-    let contents = Contents::of(net, &mut diagnostics);
+    let mut draft = Draft::default();
+    let contents = Contents::of(net, &mut draft, &mut diagnostics);
     let references = References::of(&contents, &mut diagnostics);
-    let draft = draft(&contents, &references, &mut diagnostics);
-    draft.parallel_arcs(&mut diagnostics);
+    fill(&mut draft, &contents, &references, &mut diagnostics);
     if diagnostics.is_empty() {
         let name = elements(net).find(|&child| tag(child) == "name").and_then(text).or_else(|| attribute(net, "id"));
         let name = name.map(|name| name.text).filter(|name| !name.is_empty());
@@ -63,8 +63,8 @@ fn the_net<'a, 'i>(document: &'a Document<'i>) -> Result<Node<'a, 'i>, Box<Diagn
 }
 
 /// The net in terms of places and transitions.
-fn draft(contents: &Contents, references: &References<'_>, diagnostics: &mut Vec<Diagnostic>) -> Draft {
-    let mut draft = Draft::default();
+fn fill(draft: &mut Draft, contents: &Contents, references: &References<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let (mut place_ids, mut transition_ids) = (Vec::new(), Vec::new());
     // Position of each item among the places, or among the transitions.
     let mut positions = Vec::with_capacity(contents.items.len());
     for (item, Text { text: name, span }) in contents.items.iter().zip(names(&contents.items)) {
@@ -74,8 +74,14 @@ fn draft(contents: &Contents, references: &References<'_>, diagnostics: &mut Vec
         });
         match (&item.stands_for, item.kind) {
             (Some(_), _) => {}
-            (None, Kind::Place) => draft.places.push(DraftPlace { name, span, marked: item.marked }),
-            (None, Kind::Transition) => draft.transitions.push(DraftTransition::new(name, span)),
+            (None, Kind::Place) => {
+                place_ids.push(item.id.text.clone());
+                draft.places.push(DraftPlace { name, span, tokens: item.tokens });
+            }
+            (None, Kind::Transition) => {
+                transition_ids.push(item.id.text.clone());
+                draft.transitions.push(DraftTransition::new(name, span));
+            }
         }
     }
     for arc in &contents.arcs {
@@ -86,7 +92,11 @@ fn draft(contents: &Contents, references: &References<'_>, diagnostics: &mut Vec
             })
         });
         let [Some(from), Some(to)] = ends else { continue };
-        let at = |place: usize| Arc { place: positions[place], span: arc.source.span.to(arc.target.span) };
+        let at = |place: usize| Arc {
+            place: positions[place],
+            weight: arc.weight,
+            span: arc.source.span.to(arc.target.span),
+        };
         match (contents.items[from].kind, contents.items[to].kind) {
             (Kind::Place, Kind::Transition) => draft.transitions[positions[to]].consume.push(at(from)),
             (Kind::Transition, Kind::Place) => draft.transitions[positions[from]].produce.push(at(to)),
@@ -100,7 +110,7 @@ fn draft(contents: &Contents, references: &References<'_>, diagnostics: &mut Vec
             }
         }
     }
-    draft
+    draft.ids = Some((place_ids, transition_ids));
 }
 
 /// What each item is called, unique among places and among transitions: its name unless an earlier one has it, else its id,

@@ -1,7 +1,7 @@
 //! What is read, and what is said about what cannot be read.
 
 use super::read;
-use crate::net::{Arcs, Located, TransitionId};
+use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use crate::source::Source;
 
 /// A document around what stands on its page, which begins in line 2.
@@ -18,7 +18,7 @@ fn read_page(page: &str) -> Located {
 /// Everything that is wrong with a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.pnml", text);
-    let errors = read(&source).expect_err(text);
+    let errors = read(&source).and_then(Located::safe).expect_err(text);
     let line = |d: &crate::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
@@ -48,7 +48,7 @@ fn labels_are_trimmed_and_everything_else_is_passed_over() {
         <arc id='z' source='t' target='b'><graphics><position x='1' y='2'/></graphics></arc>",
     );
     let net = &file.net;
-    let places: Vec<_> = net.places().map(|place| (place.name, place.marked)).collect();
+    let places: Vec<_> = net.places().map(|place| (place.name, place.is_marked())).collect();
     assert_eq!(places, [("{S1=1} & more", true), ("b", false)], "names in braces are names");
     let ids: Vec<_> = net.place_ids().collect();
     let arcs = net.arcs(TransitionId::at(0));
@@ -111,7 +111,6 @@ fn everything_that_is_wrong_is_reported_at_once() {
     assert_eq!(
         problems_of_page(page),
         [
-            "2:38 E0402 the place `a` has 3 tokens at the beginning",
             "3:12 E0403 the id `a` is given twice",
             "3:16 E0401 this `<place>` has no attribute `id`",
             "4:37 E0401 `one` is no natural number",
@@ -124,13 +123,38 @@ fn everything_that_is_wrong_is_reported_at_once() {
             "8:14 E0403 this arc joins two places, `a` and `b`",
             "8:70 E0403 this arc joins two transitions, `u` and `t`",
             "9:25 E0403 there is no place or transition with the id `nowhere`",
-            "9:81 E0402 this arc has weight 2",
-            "11:14 E0402 two arcs join `b` and `t` in the same direction",
             "11:28 E0402 `<type>` in `<arc>` is not part of place/transition nets",
             "11:59 E0401 this `<arc>` has no attribute `target`",
             "11:76 E0402 `<labels>` in `<page>` is not part of place/transition nets",
         ]
     );
+}
+
+#[test]
+fn weights_and_tokens_are_read_and_noted_where_they_stand() {
+    let page = "<place id='a'><initialMarking><text> 3 </text></initialMarking></place><transition id='t'/>
+<arc source='a' target='t'><inscription><text>2</text></inscription></arc>
+<arc source='t' target='a'/><arc source='t' target='a'/><arc source='t' target='a'/>
+<place id='b'><initialMarking><text>0</text></initialMarking></place>
+<arc source='b' target='t'><inscription><text>0</text></inscription></arc>";
+    assert_eq!(problems_of_page(page), ["6:47 E0402 this arc has weight 0"]);
+    let page = page.replace("<text>0<", "<text>1<");
+    assert_eq!(
+        problems_of_page(&page),
+        [
+            "2:38 E0402 the place `a` has 3 tokens at the beginning",
+            "3:46 E0402 this arc has weight 2",
+            "4:41 E0402 two arcs join `a` and `t` in the same direction",
+            "4:69 E0402 two arcs join `a` and `t` in the same direction",
+        ]
+    );
+    let file = read_page(&page);
+    let (a, b, t) = (PlaceId::at(0), PlaceId::at(1), TransitionId::at(0));
+    assert_eq!(file.net.initial_tokens().as_slice(), [3, 1]);
+    assert_eq!(file.net.pre(t).collect::<Vec<_>>(), [(a, 2), (b, 1)]);
+    assert_eq!(file.net.post(t).collect::<Vec<_>>(), [(a, 3)]);
+    assert_eq!(file.ids, Some((vec!["a".to_owned(), "b".to_owned()], vec!["t".to_owned()])));
+    assert_eq!(read(&Source::new("n", super::write(&file.net, None, None))).unwrap().net, file.net);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 use super::read::NET_TYPE;
 use crate::draw::{Point, Positions, printable};
 use crate::exchange::notes::{Note, Notes};
-use crate::net::Net;
+use crate::net::{Net, PlaceId};
 
 type Xml = Writer<Vec<u8>>;
 
@@ -16,7 +16,7 @@ type Xml = Writer<Vec<u8>>;
 /// are labels. Positions go to the graphics of the nodes, notes to tool sections of Petril's.
 ///
 /// Reading it back gives the same net, unless a name begins or ends with blanks or holds control characters, which XML
-/// cannot keep, or a transition puts a token where it reads one, which takes an arc of weight 2.
+/// cannot keep.
 #[must_use]
 pub fn write(net: &Net, positions: Option<&Positions>, notes: Option<&Notes>) -> String {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
@@ -48,7 +48,7 @@ fn page(xml: &mut Xml, net: &Net, positions: Option<&Positions>, notes: Option<&
             label(xml, "name", place.name)?;
             graphics(xml, positions.map(|positions| positions.places[i]))?;
             tool_section(xml, notes.map(|notes| &notes.places[i]))?;
-            if place.marked { label(xml, "initialMarking", "1") } else { Ok(()) }
+            if place.is_marked() { label(xml, "initialMarking", &place.tokens.to_string()) } else { Ok(()) }
         })?;
     }
     for (i, transition) in net.transitions().enumerate() {
@@ -60,10 +60,9 @@ fn page(xml: &mut Xml, net: &Net, positions: Option<&Positions>, notes: Option<&
         })?;
     }
     let mut arcs = 0..;
-    for (i, transition) in net.transitions().enumerate() {
+    for (i, id) in net.transition_ids().enumerate() {
         let here = format!("t{i}");
-        let lists = transition.arcs;
-        let mut arc = |xml: &mut Xml, source: &str, target: &str, weight: u8| {
+        let mut arc = |xml: &mut Xml, source: &str, target: &str, weight: u64| {
             let id = format!("a{}", arcs.next().unwrap_or_default());
             let element = xml.create_element("arc");
             let element = element.with_attributes([("id", id.as_str()), ("source", source), ("target", target)]);
@@ -73,20 +72,26 @@ fn page(xml: &mut Xml, net: &Net, positions: Option<&Positions>, notes: Option<&
             }
             .map(drop)
         };
-        for place in lists.consume {
-            arc(xml, &format!("p{}", place.index()), &here, 1)?;
+        let read = net.arcs(id).read;
+        let is_read = |place: PlaceId| read.binary_search(&place).is_ok();
+        for (place, weight) in net.taken(id).filter(|&(place, _)| !is_read(place)) {
+            arc(xml, &format!("p{}", place.index()), &here, weight)?;
         }
-        for place in lists.read {
-            let weight = if lists.produce.binary_search(place).is_ok() { 2 } else { 1 };
-            let place = format!("p{}", place.index());
-            arc(xml, &place, &here, 1)?;
-            arc(xml, &here, &place, weight)?;
+        for (place, weight) in net.read(id) {
+            let name = format!("p{}", place.index());
+            arc(xml, &name, &here, weight + on(net.taken(id), place))?;
+            arc(xml, &here, &name, weight + on(net.put(id), place))?;
         }
-        for place in lists.produce.iter().filter(|place| lists.read.binary_search(place).is_err()) {
-            arc(xml, &here, &format!("p{}", place.index()), 1)?;
+        for (place, weight) in net.put(id).filter(|&(place, _)| !is_read(place)) {
+            arc(xml, &here, &format!("p{}", place.index()), weight)?;
         }
     }
     Ok(())
+}
+
+/// The weight of a place in a list; 0 if it is not there.
+fn on(mut arcs: impl Iterator<Item = (PlaceId, u64)>, place: PlaceId) -> u64 {
+    arcs.find(|&(other, _)| other == place).map_or(0, |(_, weight)| weight)
 }
 
 fn label(xml: &mut Xml, name: &str, text: &str) -> io::Result<()> {

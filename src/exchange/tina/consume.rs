@@ -1,10 +1,11 @@
-//! pest's pairs to declarations; what a safe net does not have is refused here.
+//! pest's pairs to declarations; what a place/transition net does not have is refused here.
 
 use pest::iterators::Pair;
 
 use super::expected;
 use super::read::Rule;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::exchange::draft::{Draft, MAX_COUNT};
 use crate::source::Span;
 
 /// A name without its quoting, and where it stands.
@@ -19,12 +20,12 @@ pub enum Declaration {
     Net(Name),
     Place {
         name: Name,
-        marked: bool,
+        tokens: u64,
     },
-    /// The arcs in the order of the text.
+    /// The arcs in the order of the text, with their weights.
     Transition {
         name: Name,
-        arcs: Vec<(Direction, Name)>,
+        arcs: Vec<(Direction, Name, u64)>,
     },
 }
 
@@ -36,12 +37,12 @@ pub enum Direction {
     Produce,
 }
 
-/// A line; `None` if it is reported, or says nothing about the net itself.
-pub fn declaration(line: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Option<Declaration> {
+/// A line; `None` if it is reported, or says nothing about the net itself. What no safe net has is noted in the draft.
+pub fn declaration(line: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> Option<Declaration> {
     match line.as_rule() {
         Rule::net => line.into_inner().find_map(name).map(Declaration::Net),
-        Rule::place => Some(place(line, diagnostics)),
-        Rule::transition => Some(transition(line, diagnostics)),
+        Rule::place => Some(place(line, draft, diagnostics)),
+        Rule::transition => Some(transition(line, draft, diagnostics)),
         Rule::priority => {
             let message = "priorities between transitions are not part of place/transition nets";
             refuse(span(&line), message, "model the priority by places, or leave the line out", diagnostics);
@@ -56,29 +57,27 @@ pub fn declaration(line: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> O
     }
 }
 
-fn place(line: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Declaration {
+fn place(line: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> Declaration {
     let mut place = Name::default();
-    let mut marked = false;
+    let mut tokens = 0;
     for piece in line.into_inner() {
         match piece.as_rule() {
             Rule::marking => {
                 let span = span(&piece);
-                match number(piece) {
-                    "0" => {}
-                    "1" => marked = true,
-                    tokens => {
-                        let message = format!("the place `{}` has {tokens} tokens at the beginning", place.text);
-                        refuse(span, message, "a place of a safe net holds one token at most", diagnostics);
-                    }
+                let number = number(piece);
+                tokens = count(number, span, diagnostics);
+                if tokens > 1 {
+                    let message = format!("the place `{}` has {number} tokens at the beginning", place.text);
+                    draft.refuse(span, message, "a place of a safe net holds one token at most");
                 }
             }
             _ => place = name(piece).unwrap_or(place),
         }
     }
-    Declaration::Place { name: place, marked }
+    Declaration::Place { name: place, tokens }
 }
 
-fn transition(line: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Declaration {
+fn transition(line: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> Declaration {
     let mut transition = Name::default();
     let mut arcs = Vec::new();
     for piece in line.into_inner() {
@@ -87,43 +86,52 @@ fn transition(line: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Declar
                 let message = format!("the interval `{}` makes this a time net", piece.as_str().trim_end());
                 refuse(span(&piece), message, "leave the interval out: time is not modelled", diagnostics);
             }
-            Rule::input | Rule::output => arcs.push(arc(piece, diagnostics)),
+            Rule::input | Rule::output => arcs.push(arc(piece, draft, diagnostics)),
             _ => transition = name(piece).unwrap_or(transition),
         }
     }
     Declaration::Transition { name: transition, arcs }
 }
 
-/// Refuses all arcs but those of weight 1 and tests for one token.
-fn arc(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> (Direction, Name) {
+/// Refuses arcs that are neither weighted nor tests.
+fn arc(pair: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> (Direction, Name, u64) {
     let span = span(&pair);
     let mut direction = if pair.as_rule() == Rule::output { Direction::Produce } else { Direction::Consume };
     let mut place = Name::default();
+    let mut weight = 1;
     for piece in pair.into_inner() {
-        match piece.as_rule() {
+        let rule = piece.as_rule();
+        match rule {
             Rule::bare | Rule::braced => place = name(piece).unwrap_or(place),
-            rule => {
+            Rule::weight | Rule::test => {
+                let number = number(piece);
+                weight = count(number, span, diagnostics);
+                if weight == 0 {
+                    let help = "leave the arc out, or give it a weight from 1";
+                    refuse(span, format!("this arc has weight {number}"), help, diagnostics);
+                }
                 if rule == Rule::test {
                     direction = Direction::Read;
-                }
-                let (message, help) = match (rule, number(piece)) {
-                    (Rule::weight | Rule::test, "1") => continue,
-                    (Rule::weight, n) => (format!("this arc has weight {n}"), "in a safe net every arc has weight 1"),
-                    (Rule::test, n) => {
+                    if weight > 1 {
                         let help = "a place of a safe net holds one token at most: test with `?1`";
-                        (format!("this arc tests for {n} tokens"), help)
+                        draft.refuse(span, format!("this arc tests for {number} tokens"), help);
                     }
-                    (Rule::inhibitor, _) => (
-                        "an inhibitor arc is not part of place/transition nets".to_owned(),
-                        "test the complementary place with `?1` instead",
-                    ),
-                    _ => ("a stopwatch arc makes this a time net".to_owned(), "time is not modelled"),
-                };
-                refuse(span, message, help, diagnostics);
+                } else if weight > 1 {
+                    let help = "in a safe net every arc has weight 1";
+                    draft.refuse(span, format!("this arc has weight {number}"), help);
+                }
+            }
+            Rule::inhibitor => {
+                let message = "an inhibitor arc is not part of place/transition nets";
+                refuse(span, message, "test the complementary place with `?1` instead", diagnostics);
+            }
+            _ => {
+                let message = "a stopwatch arc makes this a time net";
+                refuse(span, message, "time is not modelled", diagnostics);
             }
         }
     }
-    (direction, place)
+    (direction, place, weight)
 }
 
 fn refuse(span: Span, message: impl Into<String>, help: &str, diagnostics: &mut Vec<Diagnostic>) {
@@ -141,6 +149,25 @@ fn number(pair: Pair<'_, Rule>) -> &str {
     let digits = number.map_or("", |number| number.as_str()).trim_start_matches('0');
     // Nothing is left of a zero but perhaps its K or M.
     if digits.starts_with(|c: char| c.is_ascii_digit()) { digits } else { "0" }
+}
+
+/// A number as it is written, where `K` stands for a thousand, and so on.
+fn count(number: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> u64 {
+    let digits = number.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let factor = match &number[digits.len()..] {
+        "" => 1,
+        "K" => 1_000,
+        "M" => 1_000_000,
+        "G" => 1_000_000_000,
+        "T" => 1_000_000_000_000,
+        "P" => 1_000_000_000_000_000,
+        _ => 1_000_000_000_000_000_000_u64,
+    };
+    let count = digits.parse::<u64>().ok().and_then(|count| count.checked_mul(factor)).filter(|&n| n <= MAX_COUNT);
+    count.unwrap_or_else(|| {
+        refuse(span, format!("{number} tokens are more than can be counted"), "write a smaller number", diagnostics);
+        1
+    })
 }
 
 /// A name, if the pair is one.

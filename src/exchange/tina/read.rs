@@ -21,15 +21,15 @@ pub(super) struct TinaParser;
 /// after its file.
 ///
 /// # Errors
-/// Every line that cannot be read, every node defined twice, and everything a safe place/transition net does not have:
-/// weights, inhibitor and stopwatch arcs, several tokens, time, priorities.
+/// Every line that cannot be read, every node defined twice, and everything a place/transition net does not have: inhibitor
+/// and stopwatch arcs, time, priorities.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     let mut diagnostics = Vec::new();
     let mut assembly = Assembly::default();
     match TinaParser::parse(Rule::file, source.text()) {
         Ok(file) => {
             for line in file.flat_map(Pair::into_inner) {
-                if let Some(declaration) = consume::declaration(line, &mut diagnostics) {
+                if let Some(declaration) = consume::declaration(line, &mut assembly.draft, &mut diagnostics) {
                     assembly.add(declaration, &mut diagnostics);
                 }
             }
@@ -37,7 +37,6 @@ pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
         // The grammar reads any text, so this is a limit of the parser itself.
         Err(error) => diagnostics.push(expected::diagnostic(&error, source.text(), 0)),
     }
-    assembly.draft.parallel_arcs(&mut diagnostics);
     if diagnostics.is_empty() {
         let name = assembly.name.map_or_else(|| file_stem(source), |name| name.text);
         return Ok(assembly.draft.finish(name));
@@ -68,15 +67,15 @@ impl Assembly {
                         .help("put each net in a file of its own"),
                 ),
             },
-            Declaration::Place { name, marked } => self.declare(name, marked, diagnostics),
+            Declaration::Place { name, tokens } => self.declare(name, tokens, diagnostics),
             Declaration::Transition { name: Name { text, span }, arcs } => {
                 let first = *self.transitions.entry(text.clone()).or_insert(span);
                 if first != span {
                     diagnostics.push(twice("transition", &text, span, first));
                 }
                 let mut transition = DraftTransition::new(text, span);
-                for (direction, place) in arcs {
-                    let arc = Arc { span: place.span, place: self.place(place) };
+                for (direction, place, weight) in arcs {
+                    let arc = Arc { span: place.span, place: self.place(place), weight };
                     match direction {
                         Direction::Consume => transition.consume.push(arc),
                         Direction::Read => transition.read.push(arc),
@@ -88,7 +87,7 @@ impl Assembly {
         }
     }
 
-    fn declare(&mut self, name: Name, marked: bool, diagnostics: &mut Vec<Diagnostic>) {
+    fn declare(&mut self, name: Name, tokens: u64, diagnostics: &mut Vec<Diagnostic>) {
         if let Some(&place) = self.places.get(&name.text)
             && let Some(first) = self.declared[place]
         {
@@ -98,7 +97,7 @@ impl Assembly {
         let place = self.place(name);
         self.declared[place] = Some(span);
         self.draft.places[place].span = span;
-        self.draft.places[place].marked = marked;
+        self.draft.places[place].tokens = tokens;
     }
 
     /// The place of a name, which may be new.
@@ -107,7 +106,7 @@ impl Assembly {
             return place;
         }
         self.places.insert(text.clone(), self.draft.places.len());
-        self.draft.places.push(DraftPlace { name: text, span, marked: false });
+        self.draft.places.push(DraftPlace { name: text, span, tokens: 0 });
         self.declared.push(None);
         self.draft.places.len() - 1
     }

@@ -1,13 +1,13 @@
 //! What is read, and what is said about what cannot be read.
 
 use super::read;
-use crate::net::{Arcs, PlaceId, TransitionId};
+use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use crate::source::Source;
 
 /// Everything that is wrong with a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.net", text);
-    let errors = read(&source).expect_err(text);
+    let errors = read(&source).and_then(Located::safe).expect_err(text);
     let line = |d: &crate::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
@@ -17,7 +17,7 @@ fn problems(text: &str) -> Vec<String> {
 
 /// The one problem of a text of one line, with what is underlined and the last piece of help.
 fn problem(text: &str) -> [String; 3] {
-    let errors = read(&Source::new("test.net", text)).expect_err(text);
+    let errors = read(&Source::new("test.net", text)).and_then(Located::safe).expect_err(text);
     assert_eq!(errors.len(), 1, "{text}: {errors:?}");
     let [error] = &errors[..] else { panic!("{text}") };
     let help = error.help.last().cloned().unwrap_or_default();
@@ -41,7 +41,7 @@ fn every_declaration_of_the_format_is_read() {
     let file = read(&source).unwrap();
     let net = &file.net;
     assert_eq!(net.name(), "two words");
-    let places: Vec<_> = net.places().map(|place| (place.name, place.marked)).collect();
+    let places: Vec<_> = net.places().map(|place| (place.name, place.is_marked())).collect();
     assert_eq!(places, [("p", true), ("q}", false), ("q'2", false), ("unused", false)]);
     let names: Vec<_> = net.transitions().map(|t| t.name).collect();
     assert_eq!(names, ["t 1", "none", "source", "p"], "a place and a transition may have one name");
@@ -67,16 +67,47 @@ fn every_bad_line_is_reported_and_the_others_are_still_looked_at() {
         problems(text),
         [
             "2:5 E0401 this net is named a second time",
-            "3:6 E0402 the place `p` has 2 tokens at the beginning",
             "4:1 E0401 expected `net`, `pl` or `tr`, found `foo`",
-            "6:6 E0402 this arc has weight 2",
             "7:7 E0401 expected `->` or a name, found the end of the line",
             "8:4 E0403 the place `q` is defined twice",
             "9:4 E0403 the transition `t` is defined twice",
-            "11:13 E0402 two arcs join `q` and `v` in the same direction",
             "12:1 E0402 priorities between transitions are not part of place/transition nets",
         ]
     );
+}
+
+#[test]
+fn weights_and_tokens_are_read_and_noted_where_they_stand() {
+    let text = "pl p (2)\ntr t p*2 q?3 -> p q q\ntr u q*1K r?2 r -> r\n";
+    assert_eq!(
+        problems(text),
+        [
+            "1:6 E0402 the place `p` has 2 tokens at the beginning",
+            "2:6 E0402 this arc has weight 2",
+            "2:10 E0402 this arc tests for 3 tokens",
+            "2:21 E0402 two arcs join `q` and `t` in the same direction",
+            "3:6 E0402 this arc has weight 1K",
+            "3:11 E0402 this arc tests for 2 tokens",
+        ]
+    );
+    let net = read(&Source::new("test.net", text)).unwrap().net;
+    let names = |arcs: Vec<(PlaceId, u64)>| -> Vec<_> {
+        arcs.into_iter().map(|(place, weight)| (net.place(place).name, weight)).collect()
+    };
+    let [t, u] = [0, 1].map(TransitionId::at);
+    assert_eq!(names(net.pre(t).collect()), [("p", 2), ("q", 3)]);
+    assert_eq!(names(net.post(t).collect()), [("p", 1), ("q", 5)]);
+    assert_eq!(names(net.pre(u).collect()), [("q", 1000), ("r", 2)], "the token taken is one of those tested");
+    assert_eq!(names(net.post(u).collect()), [("r", 2)]);
+    let written = super::write(&net);
+    assert_eq!(written, "net test\npl p (2)\npl q\npl r\ntr t p*2 q?3 -> q*2 p\ntr u q*1000 r?2 ->\n");
+    assert_eq!(read(&Source::new("test.net", written)).unwrap().net, net);
+    assert_eq!(
+        problem("pl p (9G)"),
+        ["the place `p` has 9G tokens at the beginning", "(9G)", "a place of a safe net holds one token at most"]
+    );
+    assert_eq!(problem("pl p (9T)")[0], "9T tokens are more than can be counted");
+    assert_eq!(problem("pl p (99999999999999999999)")[0], "99999999999999999999 tokens are more than can be counted");
 }
 
 #[test]

@@ -9,16 +9,26 @@ use crate::net::{Net, PlaceId};
 pub fn write(net: &Net) -> String {
     let mut out = format!("net {}\n", name(net.name()));
     for place in net.places() {
-        let marking = if place.marked { " (1)" } else { "" };
+        let marking = if place.tokens > 0 { format!(" ({})", place.tokens) } else { String::new() };
         let _ = writeln!(out, "pl {}{marking}", name(place.name));
     }
-    for transition in net.transitions() {
-        let list = |places: &[PlaceId], suffix: &str| -> String {
-            places.iter().map(|&id| format!(" {}{suffix}", name(net.place(id).name))).collect()
+    for id in net.transition_ids() {
+        let arc = |place: PlaceId, weight: u64| match weight {
+            1 => format!(" {}", name(net.place(place).name)),
+            _ => format!(" {}*{weight}", name(net.place(place).name)),
         };
-        let arcs = transition.arcs;
-        let inputs = list(arcs.consume, "") + &list(arcs.read, "?1");
-        let _ = writeln!(out, "tr {}{inputs} ->{}", name(transition.name), list(arcs.produce, ""));
+        let read = |place: PlaceId| net.read(id).find(|&(other, _)| other == place).map_or(0, |(_, weight)| weight);
+        let _ = write!(out, "tr {}", name(net.transition(id).name));
+        // A test asks for tokens that are there, perhaps the ones that are taken: what is needed besides is taken and put back.
+        let both = |place: &PlaceId| net.arcs(id).consume.binary_search(place).is_ok();
+        net.taken(id).for_each(|(place, weight)| out += &arc(place, weight + read(place)));
+        for (place, weight) in net.read(id).filter(|(place, _)| !both(place)) {
+            let _ = write!(out, " {}?{weight}", name(net.place(place).name));
+        }
+        out += " ->";
+        net.put(id).for_each(|(place, weight)| out += &arc(place, weight));
+        net.read(id).filter(|(place, _)| both(place)).for_each(|(place, weight)| out += &arc(place, weight));
+        out += "\n";
     }
     out
 }

@@ -141,7 +141,7 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
         return Ok(Meaning::Own(values));
     }
     let is_so = |&(output, value): &(VarId, u64)| program.variable(output).initial == value;
-    if file.net.place(place).marked && !values.iter().all(is_so) {
+    if file.net.place(place).is_marked() && !values.iter().all(is_so) {
         let message = format!("`{name}` is marked, but the program does not begin with these outputs");
         return Err(unfit(message).help("leave it unmarked: the program decides when it is marked"));
     }
@@ -213,7 +213,7 @@ fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> 
         |list: &[PlaceId]| list.iter().filter(|place| is_own(place)).map(|place| position[place.index()]).collect();
     let place = |&id: &PlaceId| PlantPlace {
         name: qualified(net.place(id).name),
-        marked: net.place(id).marked,
+        marked: net.place(id).is_marked(),
         drives: meanings[id.index()].values().to_vec(),
     };
     let transition = |&id: &TransitionId| {

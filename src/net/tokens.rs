@@ -1,0 +1,87 @@
+//! Markings of any net and the firing rule, as plainly as the definition has them.
+//!
+//! Searches use packed states of their own; this is what they are checked against.
+
+use super::{Net, PlaceId, TransitionId};
+
+/// A marking: the tokens of each place.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Tokens(Vec<u64>);
+
+impl Tokens {
+    /// How many tokens a place has.
+    #[must_use]
+    pub fn on(&self, place: PlaceId) -> u64 {
+        self.0[place.index()]
+    }
+
+    /// The tokens of all places, by position.
+    #[must_use]
+    pub fn as_slice(&self) -> &[u64] {
+        &self.0
+    }
+}
+
+/// A firing would put more tokens on this place than can be counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Overflow(pub PlaceId);
+
+impl Net {
+    /// The tokens the net begins with.
+    #[must_use]
+    pub fn initial_tokens(&self) -> Tokens {
+        Tokens(self.places().map(|place| place.tokens).collect())
+    }
+
+    /// Whether each place of a transition's preset has as many tokens as are needed.
+    #[must_use]
+    pub fn has_concession(&self, tokens: &Tokens, transition: TransitionId) -> bool {
+        self.pre(transition).all(|(place, weight)| tokens.on(place) >= weight)
+    }
+
+    /// Fires an enabled transition.
+    ///
+    /// # Errors
+    /// [`Overflow`] if a place would get more than 2^64 - 1 tokens; the marking is then left as it was.
+    pub fn play(&self, tokens: &mut Tokens, transition: TransitionId) -> Result<(), Overflow> {
+        debug_assert!(self.has_concession(tokens, transition), "{} is not enabled", self.transition(transition).name);
+        let mut next = tokens.clone();
+        self.pre(transition).for_each(|(place, weight)| next.0[place.index()] -= weight);
+        for (place, weight) in self.post(transition) {
+            let on = &mut next.0[place.index()];
+            *on = on.checked_add(weight).ok_or(Overflow(place))?;
+        }
+        *tokens = next;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::net::{Builder, PlaceId};
+
+    #[test]
+    fn weights_are_taken_and_put() {
+        let mut builder = Builder::new("n");
+        let [a, b] = [("a", 5), ("b", 0)].map(|(name, tokens)| builder.place_with(name, tokens));
+        let t = builder.weighted("t", &[(a, 3)], &[(a, 1), (b, 2)], &[]);
+        let u = builder.weighted("u", &[(b, 1), (b, 1)], &[], &[(a, 2)]);
+        let net = builder.build();
+        assert!(!net.is_ordinary());
+        let pairs = |list: Vec<(PlaceId, u64)>| list.into_iter().map(|(p, w)| (p.index(), w)).collect::<Vec<_>>();
+        assert_eq!(pairs(net.pre(t).collect()), [(0, 3)]);
+        assert_eq!(pairs(net.post(t).collect()), [(0, 1), (1, 2)]);
+        assert_eq!(pairs(net.pre(u).collect()), [(0, 2), (1, 2)]);
+        assert_eq!(pairs(net.post(u).collect()), [(0, 2)]);
+
+        let mut tokens = net.initial_tokens();
+        assert!(net.has_concession(&tokens, t) && !net.has_concession(&tokens, u));
+        net.play(&mut tokens, t).unwrap();
+        assert_eq!(tokens.as_slice(), [3, 2]);
+        net.play(&mut tokens, u).unwrap();
+        assert_eq!(tokens.as_slice(), [3, 0]);
+        net.play(&mut tokens, t).unwrap();
+        assert_eq!(tokens.as_slice(), [1, 2]);
+        assert!(!net.has_concession(&tokens, t) && !net.has_concession(&tokens, u), "u reads two tokens");
+    }
+}
