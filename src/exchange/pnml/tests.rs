@@ -143,9 +143,9 @@ fn weights_and_tokens_are_read_and_noted_where_they_stand() {
         problems_of_page(&page),
         [
             "2:38 E0402 the place `a` has 3 tokens at the beginning",
-            "3:46 E0402 this arc has weight 2",
-            "4:41 E0402 two arcs join `a` and `t` in the same direction",
-            "4:69 E0402 two arcs join `a` and `t` in the same direction",
+            "3:47 E0402 this arc has weight 2",
+            "4:42 E0402 two arcs join `a` and `t` in the same direction",
+            "4:70 E0402 two arcs join `a` and `t` in the same direction",
         ]
     );
     let file = read_page(&page);
