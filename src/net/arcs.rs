@@ -83,11 +83,6 @@ impl ArcTable {
         Weights { consume, produce, read }
     }
 
-    /// Whether all arcs have the weight 1.
-    pub fn is_ordinary(&self) -> bool {
-        self.weights.is_empty()
-    }
-
     /// How many transitions there are.
     pub fn len(&self) -> usize {
         self.ends.len()

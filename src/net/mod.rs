@@ -186,12 +186,6 @@ impl Net {
         weighted::merge(self.put(id), self.read(id))
     }
 
-    /// Whether every arc has the weight 1, and no place more than one token at the beginning.
-    #[must_use]
-    pub fn is_ordinary(&self) -> bool {
-        self.arcs.is_ordinary() && self.tokens.iter().all(|&tokens| tokens <= 1)
-    }
-
     /// The place of a name.
     #[must_use]
     pub fn find_place(&self, name: &str) -> Option<PlaceId> {
@@ -207,7 +201,11 @@ impl Net {
     /// How many arcs the net has where every read arc is written as a loop of two.
     #[must_use]
     pub fn arc_count(&self) -> usize {
-        self.arcs.count() + self.read_arc_count()
+        let twice = |id: TransitionId| {
+            let arcs = self.arcs(id);
+            arcs.read.iter().filter(|place| arcs.consume.contains(place) || arcs.produce.contains(place)).count()
+        };
+        self.arcs.count() + self.read_arc_count() - self.transition_ids().map(twice).sum::<usize>()
     }
 
     /// How many read arcs the net has.
