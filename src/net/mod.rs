@@ -154,8 +154,9 @@ impl Net {
         Transition { name: self.transition_names.get(id.index()), arcs: self.arcs(id) }
     }
 
-    /// Preset and postset of a transition, each list in ascending order. A place from which a token is taken is in no other
-    /// list; one that is both read and put to gets a second token if the transition fires.
+    /// Preset and postset of a transition, each list in ascending order. No place is taken from and put to. With weights, a
+    /// place may be read and taken from: it needs as many tokens as both weigh together. One that is read and put to has more
+    /// tokens afterwards.
     #[must_use]
     pub fn arcs(&self, id: TransitionId) -> Arcs<'_> {
         self.arcs.get(id)
