@@ -34,6 +34,26 @@ pub struct Graph {
 }
 
 impl Graph {
+    /// The whole graph of states that are kept elsewhere: state 0 is the initial one, and
+    /// `targets[starts[s]..starts[s + 1]]` are the successors of state s. They are numbered by their distance from it.
+    #[must_use]
+    pub fn of_rows(starts: Vec<u64>, targets: Vec<u32>) -> Self {
+        let states = starts.len().saturating_sub(1) as u32;
+        Self {
+            store: Store::elsewhere(states as usize),
+            initial: (0..states.min(1)).collect(),
+            row_of: (0..states).collect(),
+            starts,
+            targets,
+            parents: Vec::new(),
+            levels: Vec::new(),
+            failures: Vec::new(),
+            stop: Stop::Complete,
+            members: OnceLock::new(),
+            backward: OnceLock::new(),
+        }
+    }
+
     /// How many states there are.
     #[must_use]
     pub fn len(&self) -> usize {

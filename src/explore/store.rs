@@ -8,6 +8,7 @@ use rustc_hash::FxHasher;
 /// States in the order they were first seen. A state costs its words and about seven bytes of table.
 pub struct Store {
     words: usize,
+    len: usize,
     arena: Vec<u64>,
     index: HashTable<u32>,
 }
@@ -15,12 +16,17 @@ pub struct Store {
 impl Store {
     /// An empty store of states of this many words.
     pub fn new(words: usize) -> Self {
-        Self { words, arena: Vec::new(), index: HashTable::new() }
+        Self { words, len: 0, arena: Vec::new(), index: HashTable::new() }
+    }
+
+    /// States of which only the number is known here.
+    pub fn elsewhere(len: usize) -> Self {
+        Self { len, ..Self::new(0) }
     }
 
     /// How many states there are.
     pub fn len(&self) -> usize {
-        self.index.len()
+        self.len
     }
 
     /// A state by its number.
@@ -42,7 +48,8 @@ impl Store {
         match entry {
             hashbrown::hash_table::Entry::Occupied(entry) => (*entry.get(), false),
             hashbrown::hash_table::Entry::Vacant(entry) => {
-                let id = (self.arena.len() / words) as u32;
+                let id = self.len as u32;
+                self.len += 1;
                 entry.insert(id);
                 self.arena.extend_from_slice(state);
                 (id, true)

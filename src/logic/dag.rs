@@ -14,6 +14,11 @@ use super::formula::Quantifier;
 pub struct NodeId(usize);
 
 impl NodeId {
+    /// The node at a position.
+    pub(super) fn at(position: usize) -> Self {
+        Self(position)
+    }
+
     /// The position.
     #[must_use]
     pub fn index(self) -> usize {

@@ -8,6 +8,7 @@
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
+use super::bound::Bound;
 use super::dag::{Dag, Node, NodeId};
 use super::formula::Quantifier;
 use crate::explore::{Graph, components};
@@ -25,21 +26,37 @@ impl Labels {
     }
 }
 
-/// Labels every node. `holds` evaluates a state formula in a state. With `fair`, only paths that visit this set of states
-/// again and again count; every state must have such a path.
+/// Labels every node. `holds` evaluates a formula about one state in a state. With `fair`, only paths that visit this set of
+/// states again and again count; every state must have such a path.
 pub fn label(
     graph: &Graph,
     dag: &Dag,
-    holds: &(dyn Fn(&super::Bound, u32) -> bool + Sync),
+    holds: &(dyn Fn(&Bound, u32) -> bool + Sync),
+    fair: Option<&FixedBitSet>,
+) -> Labels {
+    label_from(graph, dag, &mut |_, formula| set_where(graph.len(), |state| holds(formula, state)), fair)
+}
+
+/// As [`label`], where `holding` gives the states in which a formula about one state holds, that of a node.
+pub fn label_from(
+    graph: &Graph,
+    dag: &Dag,
+    holding: &mut dyn FnMut(NodeId, &Bound) -> FixedBitSet,
     fair: Option<&FixedBitSet>,
 ) -> Labels {
     let open = graph.open();
     let labeller = Labeller { graph, open: &open, fair };
     let mut sets: Vec<FixedBitSet> = Vec::with_capacity(dag.nodes().len());
-    for node in dag.nodes() {
+    for (position, node) in dag.nodes().iter().enumerate() {
         let set = |id: &NodeId| &sets[id.index()];
         let labelled = match node {
-            Node::State { formula, negated } => labeller.states_where(|state| holds(formula, state) != *negated),
+            Node::State { formula, negated } => {
+                let mut states = holding(NodeId::at(position), formula);
+                if *negated {
+                    states.toggle_range(..);
+                }
+                states
+            }
             Node::And(f, g) => set(f) & set(g),
             Node::Or(f, g) => set(f) | set(g),
             Node::Next(Quantifier::Some, f) => labeller.exists_next(set(f)),
