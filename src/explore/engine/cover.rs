@@ -166,7 +166,7 @@ impl Content {
     pub(super) fn change(&self, rule: &Rule) -> i64 {
         let at = |place: usize| rule.binary_search_by_key(&place, |touch| touch.place).ok().map(|found| rule[found]);
         match self {
-            Self::Count { place, .. } => at(*place).map_or(0, |touch| touch.change()),
+            Self::Count { place, .. } => at(*place).map_or(0, Touch::change),
             Self::OneOf { places, rest } => {
                 let value = |marked: &dyn Fn(Touch) -> bool| {
                     let code = places.iter().position(|&place| at(place).is_some_and(marked));

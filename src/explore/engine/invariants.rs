@@ -27,7 +27,7 @@ pub(super) enum Wanted {
 const ROWS: (usize, usize) = (4, 1000);
 
 /// Elementary steps in all.
-const WORK: u64 = 200_000_000;
+const WORK: u64 = 20_000_000;
 
 /// Minimal invariants of a net, perhaps not all.
 pub(super) fn invariants(initial: &[u64], rules: &[Rule], wanted: Wanted) -> Vec<Invariant> {
@@ -151,7 +151,7 @@ fn eliminate(transition: u32, rows: &mut Vec<Row>, wanted: Wanted, limit: usize,
                 continue;
             }
             let Some(row) = one.combine(other, transition).filter(|row| row.is(wanted)) else { continue };
-            *work += (row.weights.len() + row.changes.len() + rows.len() / 4 + fresh.len() / 4) as u64;
+            *work += (row.weights.len() + row.changes.len() + rows.len() + fresh.len()) as u64;
             if !rows.iter().chain(&fresh).any(|smaller| row.holds_support_of(smaller)) {
                 fresh.retain(|larger| !larger.holds_support_of(&row));
                 fresh.push(row);

@@ -241,14 +241,19 @@ fn enter<E: Entry, const N: usize>(lines: &mut Lines<E, N>, keys: &[u64], mut ne
         seen ^= lines.touch(*scrambled);
     }
     black_box(seen);
+    let (mut fresh, mut count) = ([0; BATCH], 0);
+    let mut done = keys.len();
     for (at, &scrambled) in scrambled[..keys.len()].iter().enumerate() {
-        match lines.insert(scrambled) {
-            Entered::Old => {}
-            Entered::New => new(at),
-            Entered::Full => return at,
+        let entered = lines.insert(scrambled);
+        if entered == Entered::Full {
+            done = at;
+            break;
         }
+        fresh[count] = at;
+        count += usize::from(entered == Entered::New);
     }
-    keys.len()
+    fresh[..count].iter().for_each(|&at| new(at));
+    done
 }
 
 #[inline(always)]
@@ -258,13 +263,14 @@ fn dense(set: &mut [u64], len: &mut usize, keys: &[u64], mut new: impl FnMut(usi
         seen ^= set[key as usize / 64];
     }
     black_box(seen);
+    let (mut fresh, mut count) = ([0; BATCH], 0);
     for (at, &key) in keys.iter().enumerate() {
-        let (word, bit) = (key as usize / 64, 1 << (key % 64));
-        if set[word] & bit == 0 {
-            set[word] |= bit;
-            *len += 1;
-            new(at);
-        }
+        let word = &mut set[key as usize / 64];
+        fresh[count] = at;
+        count += usize::from(*word >> (key % 64) & 1 == 0);
+        *word |= 1 << (key % 64);
     }
+    *len += count;
+    fresh[..count].iter().for_each(|&at| new(at));
     keys.len()
 }

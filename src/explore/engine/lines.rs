@@ -101,30 +101,48 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         self.entries[self.first + self.line(scrambled) * N].tag()
     }
 
+    /// Enters a key unless it is there.
     #[inline(always)]
     pub(super) fn insert(&mut self, scrambled: u64) -> Entered {
         let home = self.line(scrambled);
-        let rest = scrambled & !(u64::MAX << self.rest);
-        for distance in 0..1 << DISTANCE {
-            let tag = E::pack((rest << DISTANCE | distance as u64) + 1);
-            let line = (home + distance) & ((1 << self.lines) - 1);
-            let start = self.first + line * N;
+        let start = self.first + home * N;
+        let tag = E::pack((self.rest_of(scrambled) << DISTANCE) + 1);
+        let Some(line) = self.entries[start..].first_chunk_mut::<N>() else { return Entered::Full };
+        let (used, found) = search(line, tag);
+        if used == N && !found {
+            return self.insert_away(scrambled);
+        }
+        // Whether a key is new cannot be foreseen, so nothing depends on it that a processor would guess.
+        let at = used.min(N - 1);
+        line[at] = if found { line[at] } else { tag };
+        self.len += usize::from(!found);
+        if found { Entered::Old } else { Entered::New }
+    }
+
+    /// Enters a key whose home is full.
+    #[inline(never)]
+    fn insert_away(&mut self, scrambled: u64) -> Entered {
+        for distance in 1..1 << DISTANCE {
+            let tag = E::pack((self.rest_of(scrambled) << DISTANCE | distance as u64) + 1);
+            let start = self.first + ((self.line(scrambled) + distance) & ((1 << self.lines) - 1)) * N;
             let Some(line) = self.entries[start..].first_chunk_mut::<N>() else { return Entered::Full };
-            let mut found = false;
-            for entry in line.iter() {
-                found |= *entry == tag;
-            }
+            let (used, found) = search(line, tag);
             if found {
                 return Entered::Old;
             }
-            if line[N - 1] == E::default() {
-                let used: usize = line.iter().map(|entry| usize::from(*entry != E::default())).sum();
+            if used < N {
                 line[used] = tag;
                 self.len += 1;
                 return Entered::New;
             }
         }
         Entered::Full
+    }
+
+    /// What is stored of a key.
+    #[inline(always)]
+    fn rest_of(&self, scrambled: u64) -> u64 {
+        scrambled & !(u64::MAX << self.rest)
     }
 
     /// Where a key is, as a number below [`Self::slots`].
@@ -151,46 +169,61 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         N << self.lines
     }
 
-    /// Enters a key that is not there; whether there was room.
-    #[inline(always)]
-    fn append(&mut self, scrambled: u64) -> bool {
-        let home = self.line(scrambled);
-        let rest = scrambled & !(u64::MAX << self.rest);
-        for distance in 0..1 << DISTANCE {
-            let start = self.first + ((home + distance) & ((1 << self.lines) - 1)) * N;
-            let Some(line) = self.entries[start..].first_chunk_mut::<N>() else { return false };
-            if line[N - 1] == E::default() {
-                let used: usize = line.iter().map(|entry| usize::from(*entry != E::default())).sum();
-                line[used] = E::pack((rest << DISTANCE | distance as u64) + 1);
-                self.len += 1;
-                return true;
-            }
-        }
-        false
-    }
-
     /// Enters all keys of another table of the same kind of keys into this one, which is empty; whether there was room. As both
     /// have their keys in the same order, memory is read and written almost in sequence.
     pub(super) fn append_all<F: Entry, const M: usize>(&mut self, other: &Lines<F, M>) -> bool {
-        other.scrambled_keys().all(|scrambled| self.append(scrambled))
+        // How many entries of each line are used. Reading that from the line itself would wait for what was just written.
+        let mut used = vec![0_u8; 1 << self.lines];
+        for (number, line) in other.entries[other.first..].chunks_exact(M).take(1 << other.lines).enumerate() {
+            for &entry in line {
+                if entry == F::default() {
+                    break;
+                }
+                let scrambled = other.unpack(number, entry);
+                let (home, mut distance) = (self.line(scrambled), 0);
+                let mut at = home;
+                while usize::from(used[at]) == N {
+                    distance += 1;
+                    at = (home + distance) & ((1 << self.lines) - 1);
+                    if distance >> DISTANCE > 0 {
+                        return false;
+                    }
+                }
+                let tag = self.rest_of(scrambled) << DISTANCE | distance as u64;
+                self.entries[self.first + at * N + usize::from(used[at])] = E::pack(tag + 1);
+                used[at] += 1;
+                self.len += 1;
+            }
+        }
+        true
     }
 
-    /// Every key, scrambled.
-    fn scrambled_keys(&self) -> impl Iterator<Item = u64> {
-        let used = self.entries[self.first..].chunks_exact(N).take(1 << self.lines);
-        used.enumerate().flat_map(move |(line, entries)| {
-            let used = entries.iter().take_while(|entry| **entry != E::default());
-            used.map(move |entry| {
-                let tag = entry.tag() - 1;
-                let distance = tag as usize & ((1 << DISTANCE) - 1);
-                let home = line.wrapping_sub(distance) & ((1 << self.lines) - 1);
-                (home as u64) << self.rest | tag >> DISTANCE
-            })
-        })
+    /// The scrambled key of an entry in a line.
+    #[inline(always)]
+    fn unpack(&self, line: usize, entry: E) -> u64 {
+        let tag = entry.tag() - 1;
+        let distance = tag as usize & ((1 << DISTANCE) - 1);
+        let home = line.wrapping_sub(distance) & ((1 << self.lines) - 1);
+        (home as u64) << self.rest | tag >> DISTANCE
     }
 
     /// Every key.
     pub(super) fn keys(&self) -> impl Iterator<Item = u64> {
-        self.scrambled_keys().map(|scrambled| self.scramble.unscramble(scrambled))
+        let used = self.entries[self.first..].chunks_exact(N).take(1 << self.lines).enumerate();
+        used.flat_map(move |(number, line)| {
+            let used = line.iter().take_while(|entry| **entry != E::default());
+            used.map(move |&entry| self.scramble.unscramble(self.unpack(number, entry)))
+        })
     }
+}
+
+/// How many entries of a line are used, and whether this is one of them.
+#[inline(always)]
+fn search<E: Entry, const N: usize>(line: &[E; N], tag: E) -> (usize, bool) {
+    let (mut used, mut found) = (0, 0);
+    for &entry in line {
+        used += u32::from(entry != E::default());
+        found |= u32::from(entry == tag);
+    }
+    (used as usize, found > 0)
 }

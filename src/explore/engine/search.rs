@@ -3,8 +3,8 @@
 //! Each thread looks after a shard of the states and passes on what it finds of the others'. Small levels are expanded by one
 //! thread. Counts do not depend on the number of threads, and neither do distances.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex};
 use std::thread;
 
 use super::cover::Bounds;
@@ -104,11 +104,8 @@ fn finish(model: &Model, rules: &[Rule], machine: Machine, shards: Vec<Shard>, e
         counts.fired += shard.counts.fired;
         counts.transitions += shard.counts.transitions;
         counts.deadlocks += shard.counts.deadlocks;
-        if let Some(deadlock) = &shard.counts.deadlock {
-            if counts.deadlock.as_ref().is_none_or(|other| deadlock < other) {
-                counts.deadlock = Some(deadlock.clone());
-            }
-        }
+        let nearest = counts.deadlock.iter().chain(&shard.counts.deadlock).min().cloned();
+        counts.deadlock = nearest;
     }
     let (place_maxima, tokens) = machine.meter.maxima(&model.initial, rules, &seen);
     let marking = |words: &[u64]| (0..model.initial.len()).map(|place| machine.packing.tokens(words, place)).collect();
@@ -154,10 +151,17 @@ struct Common {
     bytes: AtomicU64,
     stopping: AtomicBool,
     end: Mutex<Option<End>>,
-    /// Letters to each shard.
-    post: Vec<Mutex<Vec<Letter>>>,
+    post: Vec<Post>,
     /// How many shards still have states to expand at this distance.
     busy: AtomicUsize,
+}
+
+/// Letters to a shard.
+#[derive(Default)]
+struct Post {
+    letters: Mutex<Vec<Letter>>,
+    /// Something was sent, or nobody is busy any more.
+    news: Condvar,
 }
 
 impl Common {
@@ -176,15 +180,33 @@ impl Common {
     }
 
     fn send(&self, to: usize, letter: &mut Letter) {
-        if !letter.vias.is_empty() {
-            if let Ok(mut letters) = self.post[to].lock() {
-                letters.push(std::mem::take(letter));
-            }
+        if !letter.vias.is_empty()
+            && let Ok(mut letters) = self.post[to].letters.lock()
+        {
+            letters.push(std::mem::take(letter));
+            self.post[to].news.notify_one();
         }
     }
 
-    fn letters(&self, to: usize) -> Vec<Letter> {
-        self.post[to].lock().map(|mut letters| std::mem::take(&mut *letters)).unwrap_or_default()
+    /// What was sent to a shard. If `patient`, waits until that is something, or nobody is busy.
+    fn letters(&self, to: usize, patient: bool) -> Vec<Letter> {
+        let Ok(mut letters) = self.post[to].letters.lock() else { return Vec::new() };
+        while patient && letters.is_empty() && self.busy.load(Ordering::Acquire) > 0 {
+            let Ok(news) = self.post[to].news.wait(letters) else { return Vec::new() };
+            letters = news;
+        }
+        std::mem::take(&mut letters)
+    }
+
+    /// A shard has expanded all its states of a level, and sent all its letters.
+    fn rest(&self) {
+        if self.busy.fetch_sub(1, Ordering::AcqRel) == 1 {
+            for post in &self.post {
+                // Who is about to wait holds the lock, and would miss the news.
+                drop(post.letters.lock());
+                post.news.notify_one();
+            }
+        }
     }
 
     /// Adds what a shard has more than before, and looks at the budget.
@@ -233,7 +255,7 @@ impl<'a> Search<'a> {
             bytes: AtomicU64::new(0),
             stopping: AtomicBool::new(false),
             end: Mutex::new(None),
-            post: shards.iter().map(|_| Mutex::default()).collect(),
+            post: shards.iter().map(|_| Post::default()).collect(),
             busy: AtomicUsize::new(0),
         };
         Self { task, shards, common }
@@ -278,7 +300,7 @@ impl<'a> Search<'a> {
             letters.iter_mut().enumerate().for_each(|(to, letter)| common.send(to, letter));
         }
         for (number, shard) in shards.iter_mut().enumerate() {
-            common.letters(number).iter().for_each(|letter| shard.receive(letter));
+            common.letters(number, false).iter().for_each(|letter| shard.receive(letter));
         }
     }
 
@@ -319,20 +341,17 @@ fn level_of(
             expand(shard, task, common, &mut letters, account);
         } else if busy {
             letters.iter_mut().enumerate().for_each(|(to, letter)| common.send(to, letter));
-            common.busy.fetch_sub(1, Ordering::AcqRel);
+            common.rest();
             busy = false;
         }
         // Whoever sees that nobody is busy sees all letters: they were sent before.
         let all_done = common.busy.load(Ordering::Acquire) == 0;
-        let arrived = common.letters(number);
+        let arrived = common.letters(number, !busy);
         arrived.iter().for_each(|letter| shard.receive(letter));
         if all_done {
             return;
         }
         between();
-        if !busy && arrived.is_empty() {
-            thread::yield_now();
-        }
     }
 }
 
