@@ -7,6 +7,7 @@ mod behaviour;
 mod budget;
 mod components;
 mod coverage;
+pub mod engine;
 mod free_inputs;
 mod graph;
 mod layout;

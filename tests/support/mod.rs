@@ -6,6 +6,7 @@ pub mod agreement;
 pub mod assembler;
 pub mod document;
 pub mod naive_ctl;
+pub mod naive_nets;
 pub mod process;
 pub mod random_flat;
 pub mod random_formula;

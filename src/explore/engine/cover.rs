@@ -1,0 +1,182 @@
+//! What of a marking has to be stored: digits, from which the tokens of every place can be told.
+//!
+//! Places of which invariants prove that at most one is marked, by one token, share a digit that says which; that takes
+//! log2 k bits instead of k. The sets are chosen greedily, the one that saves most first. Every other place has a digit of
+//! its own, which counts its tokens.
+
+use std::collections::BTreeSet;
+
+use super::invariants::{Invariant, Wanted, invariants};
+use super::model::{Rule, Touch};
+
+/// A number from 0 up to but not including `radix`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Digit {
+    pub(super) radix: u64,
+    pub(super) content: Content,
+}
+
+/// What a digit says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Content {
+    /// Which of these places is marked.
+    OneOf { places: Vec<usize>, rest: Rest },
+    /// How many tokens more than `base` the place has. If not `proven`, more may have to be counted than the digit can.
+    Count { place: usize, base: u64, proven: bool },
+}
+
+/// How a digit says that none of its places is marked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Rest {
+    /// Never, as one always is.
+    Never,
+    /// By the value 0; the places have the values from 1.
+    Zero,
+    /// By the value 0, which also stands for the first place: the token is on one of these places, of which other digits tell,
+    /// and otherwise on the first place. None of these is itself the first place of such a digit.
+    Elsewhere(Vec<usize>),
+}
+
+/// What invariants say about a net.
+pub(super) struct Bounds {
+    /// Sets of places of which exactly one is marked, by one token.
+    one_token: Vec<Vec<usize>>,
+    /// The largest number of tokens a place can have, where it is known.
+    bounds: Vec<Option<u64>>,
+    /// Whether some transition changes the place.
+    changes: Vec<bool>,
+    initial: Vec<u64>,
+}
+
+impl Bounds {
+    pub(super) fn of(initial: &[u64], rules: &[Rule]) -> Self {
+        let mut changes = vec![false; initial.len()];
+        for touch in rules.iter().flatten() {
+            changes[touch.place] |= touch.change() != 0;
+        }
+        let mut bounds: Vec<Option<u64>> = vec![None; initial.len()];
+        let mut learn = |found: &[Invariant]| {
+            for invariant in found {
+                for &(place, weight) in &invariant.weights {
+                    let bound = invariant.tokens / weight;
+                    bounds[place] = Some(bounds[place].map_or(bound, |known| known.min(bound)));
+                }
+            }
+            bounds.contains(&None)
+        };
+        let single = invariants(initial, rules, Wanted::OneToken);
+        if learn(&single) {
+            learn(&invariants(initial, rules, Wanted::Any));
+        }
+        let one_token = single.iter().filter(|invariant| invariant.tokens == 1);
+        let one_token =
+            one_token.map(|invariant| invariant.weights.iter().map(|&(place, _)| place).collect()).collect();
+        Self { one_token, bounds, changes, initial: initial.to_vec() }
+    }
+
+    /// Digits for all places. Places without a bound are counted up to `limits`.
+    pub(super) fn digits(&self, limits: &[u64]) -> Vec<Digit> {
+        let mut digits = Vec::new();
+        let mut left: BTreeSet<usize> = (0..self.initial.len()).collect();
+        left.retain(|&place| self.changes[place] && self.bounds[place] != Some(0));
+        let counted = |place: usize| {
+            let initial = self.initial[place];
+            let (base, top, proven) = match self.bounds[place] {
+                _ if !self.changes[place] => (initial, initial, true),
+                Some(bound) => (0, bound, true),
+                None => (0, limits[place], false),
+            };
+            Digit { radix: top - base + 1, content: Content::Count { place, base, proven } }
+        };
+        let mut sets: Vec<&Vec<usize>> = self.one_token.iter().collect();
+        let mut firsts = BTreeSet::new();
+        loop {
+            let saving = |set: &[usize]| {
+                let part = set.iter().filter(|place| left.contains(place)).count();
+                let own = set.iter().any(|place| firsts.contains(place));
+                part as f64 - ((part + usize::from(own)).max(1) as f64).log2()
+            };
+            sets.retain(|set| saving(set) > 0.0);
+            let Some(best) = sets.iter().max_by(|a, b| saving(a).total_cmp(&saving(b))) else { break };
+            let (places, others): (Vec<usize>, Vec<usize>) = best.iter().partition(|place| left.contains(place));
+            places.iter().for_each(|place| _ = left.remove(place));
+            let rest = if others.is_empty() {
+                Rest::Never
+            } else if others.iter().any(|place| firsts.contains(place)) {
+                Rest::Zero
+            } else {
+                firsts.insert(places[0]);
+                Rest::Elsewhere(others)
+            };
+            let radix = (places.len() + usize::from(rest == Rest::Zero)) as u64;
+            digits.push(Digit { radix, content: Content::OneOf { places, rest } });
+        }
+        let rest = (0..self.initial.len())
+            .filter(|place| left.contains(place) || !self.changes[*place] || self.bounds[*place] == Some(0));
+        let shared: BTreeSet<usize> = digits.iter().flat_map(|digit| digit.content.places()).copied().collect();
+        digits.extend(rest.filter(|place| !shared.contains(place)).map(counted));
+        digits
+    }
+
+    /// Whether the number of tokens of a place is known to be limited.
+    pub(super) fn is_bounded(&self, place: usize) -> bool {
+        self.bounds[place].is_some() || !self.changes[place]
+    }
+}
+
+impl Content {
+    /// The places whose tokens the digit says.
+    pub(super) fn places(&self) -> &[usize] {
+        match self {
+            Self::OneOf { places, .. } => places,
+            Self::Count { place, .. } => std::slice::from_ref(place),
+        }
+    }
+
+    /// The place marked at this value, if a place is: the first one may not be if [`Rest::Elsewhere`] says so.
+    pub(super) fn marked(&self, value: u64) -> Option<usize> {
+        match self {
+            Self::OneOf { places, rest } => {
+                places.get(value.wrapping_sub(u64::from(*rest == Rest::Zero)) as usize).copied()
+            }
+            Self::Count { place, base, .. } => (base + value > 0).then_some(*place),
+        }
+    }
+
+    /// The number of tokens on a place of this digit if the digit is `value`, with the same reservation.
+    pub(super) fn tokens(&self, place: usize, value: u64) -> u64 {
+        match self {
+            Self::OneOf { .. } => u64::from(self.marked(value) == Some(place)),
+            Self::Count { base, .. } => base + value,
+        }
+    }
+
+    /// The digit in a marking, if the marking has one.
+    pub(super) fn value(&self, marking: &[u64]) -> Option<u64> {
+        match self {
+            Self::OneOf { places, rest } => {
+                let marked = places.iter().position(|&place| marking[place] > 0);
+                Some(marked.map_or(0, |code| code as u64 + u64::from(*rest == Rest::Zero)))
+            }
+            Self::Count { place, base, .. } => marking[*place].checked_sub(*base),
+        }
+    }
+
+    /// How a rule changes the digit whenever it can fire.
+    pub(super) fn change(&self, rule: &Rule) -> i64 {
+        let at = |place: usize| rule.binary_search_by_key(&place, |touch| touch.place).ok().map(|found| rule[found]);
+        match self {
+            Self::Count { place, .. } => at(*place).map_or(0, Touch::change),
+            Self::OneOf { places, rest } => {
+                let value = |marked: &dyn Fn(Touch) -> bool| {
+                    let code = places.iter().position(|&place| at(place).is_some_and(marked));
+                    code.map_or(0, |code| code as i64 + i64::from(*rest == Rest::Zero))
+                };
+                if places.iter().all(|&place| at(place).is_none()) {
+                    return 0;
+                }
+                value(&|touch| touch.post > 0) - value(&|touch| touch.pre > 0)
+            }
+        }
+    }
+}

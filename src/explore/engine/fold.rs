@@ -1,0 +1,126 @@
+//! Markings of several words as keys of one word.
+//!
+//! The words are the leaves of a binary tree. Each leaf, and each inner node except the root, has a table that numbers the
+//! words it has met, where the word of an inner node is the pair of its children's numbers; the key is the pair at the root.
+//! Parts of a marking take few values compared with the whole, so the tables stay small, and a marking takes little more memory
+//! than its key. This is the recursive indexing of Holzmann (1997) and Blom, Lisser, van de Pol and Weber (2011). A firing that
+//! changes one word looks up only the nodes above it.
+
+use super::intern::Interner;
+
+/// The tables of all nodes but the root.
+pub(super) struct Fold {
+    /// Leaves first, then inner nodes, children before their parents.
+    tables: Vec<Interner>,
+    leaves: usize,
+    /// The two children of each inner node; the root is the last.
+    children: Vec<(usize, usize)>,
+}
+
+/// The inner nodes above some words, children before their parents, without the root.
+pub(super) type Above = Vec<usize>;
+
+impl Fold {
+    /// For markings of `words` words, at least two.
+    pub(super) fn new(words: usize) -> Self {
+        let mut level: Vec<usize> = (0..words).collect();
+        let mut children = Vec::new();
+        while level.len() > 1 {
+            let pairs = level.chunks(2).map(|pair| match *pair {
+                [left, right] => {
+                    children.push((left, right));
+                    words + children.len() - 1
+                }
+                _ => pair[0],
+            });
+            level = pairs.collect();
+        }
+        let tables = (0..words + children.len() - 1).map(|_| Interner::default()).collect();
+        Self { tables, leaves: words, children }
+    }
+
+    /// How many nodes have numbers.
+    pub(super) fn nodes(&self) -> usize {
+        self.tables.len()
+    }
+
+    /// The inner nodes whose numbers can change when these words do.
+    pub(super) fn above(&self, words: impl Iterator<Item = usize>) -> Above {
+        let mut changed = vec![false; self.nodes() + 1];
+        words.for_each(|word| changed[word] = true);
+        for (inner, &(left, right)) in self.children.iter().enumerate() {
+            changed[self.leaves + inner] = changed[left] || changed[right];
+        }
+        (self.leaves..self.nodes()).filter(|&node| changed[node]).collect()
+    }
+
+    /// Numbers a leaf.
+    #[inline(always)]
+    pub(super) fn leaf(&mut self, leaf: usize, word: u64, numbers: &mut [u32]) {
+        numbers[leaf] = self.tables[leaf].number(word);
+    }
+
+    /// Numbers an inner node whose children are numbered.
+    #[inline(always)]
+    pub(super) fn inner(&mut self, node: usize, numbers: &mut [u32]) {
+        let (left, right) = self.children[node - self.leaves];
+        numbers[node] = self.tables[node].number(pair(numbers[left], numbers[right]));
+    }
+
+    /// The key, when all nodes are numbered.
+    #[inline(always)]
+    pub(super) fn root(&self, numbers: &[u32]) -> u64 {
+        let (left, right) = self.children[self.children.len() - 1];
+        pair(numbers[left], numbers[right])
+    }
+
+    /// The key of a marking.
+    pub(super) fn key(&mut self, words: &[u64], numbers: &mut [u32]) -> u64 {
+        words.iter().enumerate().for_each(|(leaf, &word)| self.leaf(leaf, word, numbers));
+        (self.leaves..self.nodes()).for_each(|node| self.inner(node, numbers));
+        self.root(numbers)
+    }
+
+    /// The key of a marking, if its parts were met before.
+    pub(super) fn find(&self, words: &[u64]) -> Option<u64> {
+        let mut numbers = Vec::with_capacity(self.nodes());
+        for (table, &word) in self.tables.iter().zip(words) {
+            numbers.push(table.find(word)?);
+        }
+        for node in self.leaves..self.nodes() {
+            let (left, right) = self.children[node - self.leaves];
+            numbers.push(self.tables[node].find(pair(numbers[left], numbers[right]))?);
+        }
+        Some(self.root(&numbers))
+    }
+
+    /// The words of a key, and the numbers of its nodes.
+    #[inline]
+    pub(super) fn unfold(&self, key: u64, words: &mut [u64], numbers: &mut [u32]) {
+        let (left, right) = self.children[self.children.len() - 1];
+        (numbers[left], numbers[right]) = (key as u32, (key >> 32) as u32);
+        for node in (self.leaves..self.nodes()).rev() {
+            let (left, right) = self.children[node - self.leaves];
+            let pair = self.tables[node].word(numbers[node]);
+            (numbers[left], numbers[right]) = (pair as u32, (pair >> 32) as u32);
+        }
+        for ((word, table), &number) in words.iter_mut().zip(&self.tables).zip(&*numbers) {
+            *word = table.word(number);
+        }
+    }
+
+    /// How many numbers the left and the right part of a key have been given.
+    pub(super) fn numbers(&self) -> (usize, usize) {
+        let (left, right) = self.children[self.children.len() - 1];
+        (self.tables[left].len(), self.tables[right].len())
+    }
+
+    /// Bytes in use.
+    pub(super) fn bytes(&self) -> u64 {
+        self.tables.iter().map(Interner::bytes).sum()
+    }
+}
+
+fn pair(left: u32, right: u32) -> u64 {
+    u64::from(left) | u64::from(right) << 32
+}

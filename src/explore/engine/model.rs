@@ -1,0 +1,77 @@
+//! What the engine explores: a place/transition net as numbers.
+
+use std::collections::BTreeMap;
+
+/// A place/transition net with an initial marking. Places are the positions in `initial`, transitions those in `transitions`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Model {
+    /// Tokens of each place in the initial marking.
+    pub initial: Vec<u64>,
+    /// What each transition takes and puts.
+    pub transitions: Vec<Arcs>,
+}
+
+/// The arcs of one transition. Several arcs to one place add up; arcs of weight 0 mean nothing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Arcs {
+    /// Places with the number of tokens that have to be there, and are taken.
+    pub pre: Vec<(u32, u64)>,
+    /// Places with the number of tokens that are put.
+    pub post: Vec<(u32, u64)>,
+}
+
+/// Numbers of tokens up to this one can be told apart from overflow, whatever is added to them.
+pub(super) const MANY: u64 = 1 << 62;
+
+/// What a transition does at one place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Touch {
+    pub(super) place: usize,
+    pub(super) pre: u64,
+    pub(super) post: u64,
+}
+
+impl Touch {
+    /// Tokens gained, negative if some are lost.
+    pub(super) fn change(self) -> i64 {
+        self.post as i64 - self.pre as i64
+    }
+}
+
+/// A transition as its places in ascending order, each once.
+pub(super) type Rule = Vec<Touch>;
+
+impl Model {
+    /// The transitions as rules; the reason if the net cannot be explored at all.
+    pub(super) fn rules(&self) -> Result<Vec<Rule>, String> {
+        if self.initial.iter().any(|&tokens| tokens >= MANY) {
+            return Err("an initial marking has 2^62 tokens or more on a place".to_owned());
+        }
+        self.transitions.iter().map(|arcs| self.rule(arcs)).collect()
+    }
+
+    fn rule(&self, arcs: &Arcs) -> Result<Rule, String> {
+        let mut places: BTreeMap<u32, (u64, u64)> = BTreeMap::new();
+        for &(place, weight) in &arcs.pre {
+            let pre = &mut places.entry(place).or_default().0;
+            *pre = pre.saturating_add(weight);
+        }
+        for &(place, weight) in &arcs.post {
+            let post = &mut places.entry(place).or_default().1;
+            *post = post.saturating_add(weight);
+        }
+        let mut rule = Vec::with_capacity(places.len());
+        for (place, (pre, post)) in places {
+            if place as usize >= self.initial.len() {
+                return Err(format!("an arc leads to place {place}, which the net does not have"));
+            }
+            if pre >= MANY || post >= MANY {
+                return Err("an arc has a weight of 2^62 or more".to_owned());
+            }
+            if pre > 0 || post > 0 {
+                rule.push(Touch { place: place as usize, pre, post });
+            }
+        }
+        Ok(rule)
+    }
+}

@@ -1,0 +1,155 @@
+//! Where the digits of a marking stand in its words.
+//!
+//! Small digits share a chunk of up to eight bits, as the digits of one number do (their radices multiply to at most 256), so
+//! that a table can say of each value of a chunk what it means. A large digit has a chunk of its own. No chunk stands across
+//! the end of a word. Since no digit ever leaves its range, firing a transition is one wrapping addition to each word.
+
+use super::cover::{Content, Digit, Rest};
+use super::model::Rule;
+
+/// Values a chunk of several digits can have.
+const TABLE: u64 = 256;
+
+/// The layout of packed markings.
+#[derive(Clone, Debug)]
+pub(super) struct Packing {
+    pub(super) chunks: Vec<Chunk>,
+    /// Bits used of each word.
+    pub(super) bits: Vec<u32>,
+    /// The chunk of each place and the position of its digit there.
+    places: Vec<(usize, usize)>,
+}
+
+/// Some bits of a word, which hold one or more digits.
+#[derive(Clone, Debug)]
+pub(super) struct Chunk {
+    pub(super) word: usize,
+    pub(super) shift: u32,
+    pub(super) mask: u64,
+    pub(super) values: u64,
+    /// The digits, each with what it is multiplied with in the chunk's value.
+    pub(super) digits: Vec<(u64, Digit)>,
+}
+
+impl Chunk {
+    /// The value of the chunk in a packed marking.
+    #[inline]
+    pub(super) fn get(&self, words: &[u64]) -> u64 {
+        words[self.word] >> self.shift & self.mask
+    }
+
+    fn of(digits: Vec<(u64, Digit)>, values: u64) -> Self {
+        Self {
+            word: 0,
+            shift: 0,
+            mask: u64::MAX.checked_shr((values - 1).leading_zeros()).unwrap_or(0),
+            values,
+            digits,
+        }
+    }
+
+    fn bits(&self) -> u32 {
+        self.mask.count_ones()
+    }
+}
+
+impl Packing {
+    pub(super) fn of(mut digits: Vec<Digit>, places: usize) -> Self {
+        digits.sort_by_key(|digit| std::cmp::Reverse(digit.radix));
+        let mut chunks: Vec<Chunk> = Vec::new();
+        for digit in digits {
+            let fits = |chunk: &&mut Chunk| chunk.values <= TABLE && chunk.values.saturating_mul(digit.radix) <= TABLE;
+            if let Some(chunk) = chunks.iter_mut().find(fits) {
+                let weight = chunk.values;
+                let values = weight * digit.radix;
+                let mut together = std::mem::take(&mut chunk.digits);
+                together.push((weight, digit));
+                *chunk = Chunk::of(together, values);
+            } else {
+                let values = digit.radix;
+                chunks.push(Chunk::of(vec![(1, digit)], values));
+            }
+        }
+        let mut bits: Vec<u32> = Vec::new();
+        for chunk in &mut chunks {
+            chunk.word = bits.iter().position(|used| used + chunk.bits() <= 64).unwrap_or(bits.len());
+            if chunk.word == bits.len() {
+                bits.push(0);
+            }
+            // A chunk of no bits is never shifted by 64.
+            chunk.shift = bits[chunk.word].min(63);
+            bits[chunk.word] += chunk.bits();
+        }
+        if bits.is_empty() {
+            bits.push(0);
+        }
+        let mut at = vec![(0, 0); places];
+        for (number, chunk) in chunks.iter().enumerate() {
+            for (position, (_, digit)) in chunk.digits.iter().enumerate() {
+                digit.content.places().iter().for_each(|&place| at[place] = (number, position));
+            }
+        }
+        Self { chunks, bits, places: at }
+    }
+
+    /// How many words a marking has.
+    pub(super) fn words(&self) -> usize {
+        self.bits.len()
+    }
+
+    /// How many places there are.
+    pub(super) fn places(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The places that are all empty if a place is marked whose digit does not say so for certain.
+    pub(super) fn elsewhere(&self, place: usize) -> &[usize] {
+        let (chunk, position) = self.places[place];
+        match &self.chunks[chunk].digits[position].1.content {
+            Content::OneOf { places, rest: Rest::Elsewhere(others) } if places[0] == place => others,
+            _ => &[],
+        }
+    }
+
+    /// The words of a marking; nothing if it has none, because an invariant is against it or a digit too small.
+    pub(super) fn pack(&self, marking: &[u64]) -> Option<Vec<u64>> {
+        let mut words = vec![0; self.words()];
+        for chunk in &self.chunks {
+            let mut value = 0;
+            for (weight, digit) in &chunk.digits {
+                value += weight * digit.content.value(marking).filter(|&value| value < digit.radix)?;
+            }
+            words[chunk.word] |= value << chunk.shift;
+        }
+        marking.iter().enumerate().all(|(place, &tokens)| self.tokens(&words, place) == tokens).then_some(words)
+    }
+
+    /// The tokens of a place in a packed marking.
+    pub(super) fn tokens(&self, words: &[u64], place: usize) -> u64 {
+        let (chunk, position) = self.places[place];
+        let chunk = &self.chunks[chunk];
+        let (weight, digit) = &chunk.digits[position];
+        let tokens = digit.content.tokens(place, chunk.get(words) / weight % digit.radix);
+        if self.elsewhere(place).iter().any(|&other| self.tokens(words, other) > 0) { 0 } else { tokens }
+    }
+
+    /// What firing a transition adds to each word, wrapping.
+    pub(super) fn change(&self, rule: &Rule) -> Vec<u64> {
+        let mut change = vec![0_u64; self.words()];
+        for chunk in &self.chunks {
+            for (weight, digit) in &chunk.digits {
+                let by = (digit.content.change(rule) as u64).wrapping_mul(*weight);
+                change[chunk.word] = change[chunk.word].wrapping_add(by << chunk.shift);
+            }
+        }
+        change
+    }
+
+    /// The places whose digits may turn out to be too small.
+    pub(super) fn unproven(&self) -> impl Iterator<Item = (usize, u64)> {
+        self.chunks.iter().flat_map(|chunk| &chunk.digits).filter_map(|(_, digit)| match digit.content {
+            Content::Count { place, proven: false, .. } => Some((place, digit.radix - 1)),
+            _ => None,
+        })
+    }
+}
