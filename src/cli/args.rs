@@ -44,7 +44,7 @@ pub enum Verb {
     Simulate(Simulate),
     /// Draw the subnet of an instruction.
     Draw(Draw),
-    /// Work on any safe Petri net.
+    /// Work on any place/transition net.
     #[command(subcommand)]
     Net(NetVerb),
     /// Explain a code like E0201 that stands in a message.
@@ -226,6 +226,22 @@ pub struct Draw {
 pub enum NetVerb {
     /// Print size and behaviour of a net: reachable markings, safe or not, deadlocks, dead transitions, live or not.
     Info(NetInfo),
+    /// Count the states of a net, in the lines of the Model Checking Contest.
+    Explore(NetExplore),
+}
+
+/// `petril net explore`
+#[derive(Debug, clap::Args)]
+pub struct NetExplore {
+    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Print one JSON document.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub json: bool,
+    /// Limits of the exploration.
+    #[command(flatten)]
+    pub limits: Limits,
 }
 
 /// `petril net info`

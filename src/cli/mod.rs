@@ -11,6 +11,7 @@ mod flat;
 mod input;
 mod input_table;
 mod meaning;
+mod net_explore;
 mod net_info;
 mod output;
 mod progress;
@@ -59,6 +60,7 @@ pub fn run() -> ExitCode {
     let wants_json = match &args.verb {
         Verb::Check(arguments) => arguments.json,
         Verb::Net(NetVerb::Info(arguments)) => arguments.json,
+        Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
         _ => false,
     };
     let outcome = match args.verb {
@@ -68,6 +70,7 @@ pub fn run() -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(&arguments, &console),
         Verb::Draw(arguments) => draw::run(&arguments, &console),
         Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
+        Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),
     };
     match outcome {

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::net::{Net, PlaceId};
+
 /// A place/transition net with an initial marking. Places are the positions in `initial`, transitions those in `transitions`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Model {
@@ -18,6 +20,19 @@ pub struct Arcs {
     pub pre: Vec<(u32, u64)>,
     /// Places with the number of tokens that are put.
     pub post: Vec<(u32, u64)>,
+}
+
+impl From<&Net> for Model {
+    fn from(net: &Net) -> Self {
+        let list = |arcs: &mut dyn Iterator<Item = (PlaceId, u64)>| -> Vec<(u32, u64)> {
+            arcs.map(|(place, weight)| (place.index() as u32, weight)).collect()
+        };
+        let arcs = |id| Arcs { pre: list(&mut net.pre(id)), post: list(&mut net.post(id)) };
+        Self {
+            initial: net.places().map(|place| place.tokens).collect(),
+            transitions: net.transition_ids().map(arcs).collect(),
+        }
+    }
 }
 
 /// Numbers of tokens up to this one can be told apart from overflow, whatever is added to them.
