@@ -83,7 +83,13 @@ impl petril::logic::Valuation for Marks {
     fn is_marked(&self, _: petril::net::PlaceId) -> bool {
         unreachable!()
     }
+    fn tokens(&self, _: petril::net::PlaceId) -> u64 {
+        unreachable!()
+    }
     fn is_enabled(&self, _: petril::net::TransitionId) -> bool {
+        unreachable!()
+    }
+    fn is_deadlock(&self) -> bool {
         unreachable!()
     }
 }
