@@ -226,8 +226,33 @@ pub struct Draw {
 pub enum NetVerb {
     /// Print size and behaviour of a net: reachable markings, safe or not, deadlocks, dead transitions, live or not.
     Info(NetInfo),
+    /// Answer questions about a net: formulas, or the properties of a file of the Model Checking Contest.
+    Check(NetCheck),
     /// Count the states of a net, in the lines of the Model Checking Contest.
     Explore(NetExplore),
+}
+
+/// `petril net check`
+#[derive(Debug, clap::Args)]
+pub struct NetCheck {
+    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Properties in the contest's XML, with the ids of the PNML file. May be given several times.
+    #[arg(long, value_name = "XML", required_unless_present = "formula")]
+    pub properties: Vec<PathBuf>,
+    /// A formula over the names of the net, like `AG (tokens("buffer") <= 3)`, `EF enabled("t") & marked("p")`, `AG !at deadlock`.
+    #[arg(short = 'r', long = "formula", value_name = "FORMULA")]
+    pub formula: Vec<String>,
+    /// Print the firing sequence that shows an answer, where one can.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub trace: bool,
+    /// Print one JSON document.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub json: bool,
+    /// Limits of the exploration.
+    #[command(flatten)]
+    pub limits: Limits,
 }
 
 /// `petril net explore`

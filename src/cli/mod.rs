@@ -11,6 +11,7 @@ mod flat;
 mod input;
 mod input_table;
 mod meaning;
+mod net_check;
 mod net_explore;
 mod net_info;
 mod output;
@@ -60,6 +61,7 @@ pub fn run() -> ExitCode {
     let wants_json = match &args.verb {
         Verb::Check(arguments) => arguments.json,
         Verb::Net(NetVerb::Info(arguments)) => arguments.json,
+        Verb::Net(NetVerb::Check(arguments)) => arguments.json,
         Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
         _ => false,
     };
@@ -70,6 +72,7 @@ pub fn run() -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(&arguments, &console),
         Verb::Draw(arguments) => draw::run(&arguments, &console),
         Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
+        Verb::Net(NetVerb::Check(arguments)) => net_check::run(&arguments, &console),
         Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),
     };

@@ -15,6 +15,8 @@ pub enum Bound {
     Marked(PlaceId),
     /// The transition is enabled.
     Enabled(TransitionId),
+    /// No transition is enabled.
+    Deadlock,
     /// Two numbers compare so.
     Compare(Comparison, Term, Term),
     /// Negation.
@@ -56,6 +58,8 @@ pub enum Term {
         /// The places that are marked while a bit is 1, each with what the bit counts.
         places: Vec<(PlaceId, i128)>,
     },
+    /// How many tokens the place holds.
+    Tokens(PlaceId),
     /// 1 if the formula, which is not temporal, holds; else 0.
     Truth(Box<Bound>),
     /// Sum.
@@ -72,8 +76,12 @@ pub trait Valuation {
     fn value(&self, variable: VarId) -> u64;
     /// Whether a place is marked.
     fn is_marked(&self, place: PlaceId) -> bool;
+    /// How many tokens a place holds.
+    fn tokens(&self, place: PlaceId) -> u64;
     /// Whether a transition is enabled.
     fn is_enabled(&self, transition: TransitionId) -> bool;
+    /// Whether no transition is enabled.
+    fn is_deadlock(&self) -> bool;
 }
 
 impl Bound {
@@ -81,7 +89,12 @@ impl Bound {
     #[must_use]
     pub fn is_state_formula(&self) -> bool {
         match self {
-            Self::Truth(_) | Self::Variable(_) | Self::Marked(_) | Self::Enabled(_) | Self::Compare(..) => true,
+            Self::Truth(_)
+            | Self::Variable(_)
+            | Self::Marked(_)
+            | Self::Enabled(_)
+            | Self::Deadlock
+            | Self::Compare(..) => true,
             Self::Not(f) => f.is_state_formula(),
             Self::And(f, g) | Self::Or(f, g) | Self::Implies(f, g) | Self::Iff(f, g) => {
                 f.is_state_formula() && g.is_state_formula()
@@ -97,6 +110,7 @@ impl Bound {
             Self::Variable(variable) => state.value(*variable) == 1,
             Self::Marked(place) => state.is_marked(*place),
             Self::Enabled(transition) => state.is_enabled(*transition),
+            Self::Deadlock => state.is_deadlock(),
             Self::Compare(comparison, left, right) => comparison.holds(left.value_in(state)?, right.value_in(state)?),
             Self::Not(f) => !f.holds_in(state)?,
             Self::And(f, g) => f.holds_in(state)? & g.holds_in(state)?,
@@ -116,6 +130,7 @@ impl Term {
             Self::Bits { places, .. } => {
                 places.iter().filter(|(place, _)| state.is_marked(*place)).map(|(_, weight)| weight).sum()
             }
+            Self::Tokens(place) => i128::from(state.tokens(*place)),
             Self::Truth(f) => i128::from(f.holds_in(state)?),
             Self::Sum(a, b) => a.value_in(state)? + b.value_in(state)?,
             Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
@@ -130,6 +145,7 @@ impl Term {
             Self::Number(number) => Some(number.unsigned_abs()),
             Self::Variable(_, ty) => Some(ty.least().unsigned_abs().max(ty.greatest().unsigned_abs())),
             Self::Bits { places, .. } => Some(places.iter().map(|(_, weight)| weight.unsigned_abs()).sum()),
+            Self::Tokens(_) => Some(u128::from(u64::MAX)),
             Self::Truth(_) => Some(1),
             Self::Sum(a, b) | Self::Difference(a, b) => a.magnitude()?.checked_add(b.magnitude()?),
             Self::Product(a, b) => a.magnitude()?.checked_mul(b.magnitude()?),

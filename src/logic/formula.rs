@@ -26,8 +26,12 @@ pub enum Expression {
     AtIdle,
     /// `at End`
     AtEnd,
+    /// `at deadlock`: no transition is enabled.
+    Deadlock,
     /// `marked("place")`
     Marked(String),
+    /// `tokens("place")`: how many tokens the place holds.
+    Tokens(String),
     /// `enabled("transition")`
     Enabled(String),
     /// `!f`

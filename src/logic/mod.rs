@@ -14,11 +14,12 @@ mod label;
 mod literal;
 mod parse;
 mod representatives;
+mod simplify;
 mod text;
 mod vacuity;
 mod valuations;
 
-pub use bind::{View, bind};
+pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
 pub use domain::{DomainText, bind_domain};

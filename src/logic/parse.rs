@@ -144,11 +144,16 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
                 Expression::AtLine(line.as_str().parse().map_err(|_| too_large())?)
             }
             Some(spot) if spot.as_str().eq_ignore_ascii_case("idle") => Expression::AtIdle,
+            Some(spot) if spot.as_str().eq_ignore_ascii_case("deadlock") => Expression::Deadlock,
             _ => Expression::AtEnd,
         },
-        rule @ (Rule::marked | Rule::enabled) => {
+        rule @ (Rule::marked | Rule::tokens | Rule::enabled) => {
             let quoted = pair.into_inner().next().map(|p| p.as_str().trim_matches('"').to_owned()).unwrap_or_default();
-            if rule == Rule::marked { Expression::Marked(quoted) } else { Expression::Enabled(quoted) }
+            match rule {
+                Rule::marked => Expression::Marked(quoted),
+                Rule::tokens => Expression::Tokens(quoted),
+                _ => Expression::Enabled(quoted),
+            }
         }
         _ => Expression::Name(name_of(&pair)),
     };
@@ -246,7 +251,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::close_group => "`)`",
         Rule::close_until => "`]`",
         Rule::line => "a line number",
-        Rule::spot => "`line`, `idle` or `End`",
+        Rule::spot => "`line`, `idle`, `End` or `deadlock`",
         _ => return None,
     })
 }

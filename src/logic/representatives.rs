@@ -48,7 +48,7 @@ fn domain(program: &FlatProgram, input: VarId, cuts: &Cuts) -> Option<Domain> {
 /// Adds where a formula tells values of an input apart; says whether it does so by comparisons with constants only.
 fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
     match formula {
-        Bound::Truth(_) | Bound::Marked(_) | Bound::Enabled(_) => true,
+        Bound::Truth(_) | Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => true,
         Bound::Variable(variable) => *variable != input,
         Bound::Compare(comparison, left, right) => {
             let compared = match (left, right) {
@@ -78,7 +78,7 @@ fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
 /// The same of a number that is not the input itself.
 fn add_term(term: &Term, input: VarId, cuts: &mut Cuts) -> bool {
     match term {
-        Term::Number(_) => true,
+        Term::Number(_) | Term::Tokens(_) => true,
         Term::Variable(variable, _) | Term::Bits { variable, .. } => *variable != input,
         Term::Truth(f) => add(f, input, cuts),
         Term::Sum(a, b) | Term::Difference(a, b) | Term::Product(a, b) => {
@@ -91,7 +91,7 @@ fn add_term(term: &Term, input: VarId, cuts: &mut Cuts) -> bool {
 fn constant(term: &Term) -> Option<i128> {
     match term {
         Term::Number(number) => Some(*number),
-        Term::Variable(..) | Term::Bits { .. } | Term::Truth(_) => None,
+        Term::Variable(..) | Term::Bits { .. } | Term::Tokens(_) | Term::Truth(_) => None,
         Term::Sum(a, b) => constant(a)?.checked_add(constant(b)?),
         Term::Difference(a, b) => constant(a)?.checked_sub(constant(b)?),
         Term::Product(a, b) => constant(a)?.checked_mul(constant(b)?),

@@ -1,11 +1,61 @@
-//! Bound formulas and nodes as text, in the terms of the program and its net.
+//! Bound formulas and nodes as text, in the terms of the program and its net, or of a net alone.
 
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
 use super::formula::{Comparison, Quantifier};
 use crate::flat::value_text;
-use crate::semantics::Role;
+use crate::net::{Net, PlaceId, TransitionId};
+use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System};
+
+/// What atoms are called.
+#[derive(Clone, Copy)]
+enum Words<'a> {
+    Program(&'a System),
+    /// A net alone, which has no variables.
+    Net(&'a Net),
+}
+
+impl Words<'_> {
+    fn net(&self) -> &Net {
+        match self {
+            Self::Program(system) => &system.net,
+            Self::Net(net) => net,
+        }
+    }
+
+    fn variable(&self, variable: VarId) -> String {
+        match self {
+            Self::Program(system) => system.program.variable(variable).name.clone(),
+            Self::Net(_) => format!("variable {}", variable.0),
+        }
+    }
+
+    fn marked(&self, place: PlaceId) -> String {
+        if let Self::Program(system) = self {
+            match system.places[place.index()] {
+                PlaceRole::Bit { variable, bit: 0, value: true }
+                    if system.program.variable(variable).role != Role::Buffer =>
+                {
+                    return self.variable(variable);
+                }
+                PlaceRole::Line(line) if line == system.program.end() => return "at End".to_owned(),
+                PlaceRole::Line(line) => return format!("at line {}", line + 1),
+                PlaceRole::Idle => return "at idle".to_owned(),
+                _ => {}
+            }
+        }
+        format!("marked(\"{}\")", self.net().place(place).name)
+    }
+
+    fn tokens(&self, place: PlaceId) -> String {
+        format!("tokens(\"{}\")", self.net().place(place).name)
+    }
+
+    fn enabled(&self, transition: TransitionId) -> String {
+        format!("enabled(\"{}\")", self.net().transition(transition).name)
+    }
+}
 
 /// Binding strengths, weakest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,31 +74,28 @@ impl Bound {
     /// The formula as one would write it.
     #[must_use]
     pub fn text(&self, system: &System) -> String {
-        self.set(system, Strength::Iff)
+        self.set(Words::Program(system), Strength::Iff)
+    }
+
+    /// The same of a formula about a net alone.
+    #[must_use]
+    pub fn text_in_net(&self, net: &Net) -> String {
+        self.set(Words::Net(net), Strength::Iff)
     }
 
     /// The text, in parentheses if it binds more weakly than what stands around it.
-    fn set(&self, system: &System, around: Strength) -> String {
+    fn set(&self, words: Words<'_>, around: Strength) -> String {
         // Each operand with what it must bind at least as strongly as: all but `->` take their operands from the left.
         let two = |(f, left): (&Self, Strength), sign: &str, (g, right): (&Self, Strength), strength: Strength| {
-            let text = format!("{} {sign} {}", f.set(system, left), g.set(system, right));
+            let text = format!("{} {sign} {}", f.set(words, left), g.set(words, right));
             parenthesise(text, strength < around)
         };
         match self {
             Self::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
-            Self::Variable(variable) => system.program.variable(*variable).name.clone(),
-            Self::Marked(place) => match system.places[place.index()] {
-                PlaceRole::Bit { variable, bit: 0, value: true }
-                    if system.program.variable(variable).role != Role::Buffer =>
-                {
-                    system.program.variable(variable).name.clone()
-                }
-                PlaceRole::Line(line) if line == system.program.end() => "at End".to_owned(),
-                PlaceRole::Line(line) => format!("at line {}", line + 1),
-                PlaceRole::Idle => "at idle".to_owned(),
-                _ => format!("marked(\"{}\")", system.net.place(*place).name),
-            },
-            Self::Enabled(transition) => format!("enabled(\"{}\")", system.net.transition(*transition).name),
+            Self::Variable(variable) => words.variable(*variable),
+            Self::Marked(place) => words.marked(*place),
+            Self::Enabled(transition) => words.enabled(*transition),
+            Self::Deadlock => "at deadlock".to_owned(),
             Self::Compare(comparison, left, right) => {
                 let sign = match comparison {
                     Comparison::Equal => "=",
@@ -58,28 +105,28 @@ impl Bound {
                     Comparison::Greater => ">",
                     Comparison::AtLeast => ">=",
                 };
-                let sides = (left.beside(right, system), right.beside(left, system));
+                let sides = (left.beside(right, words), right.beside(left, words));
                 parenthesise(format!("{} {sign} {}", sides.0, sides.1), Strength::Compare < around)
             }
-            Self::Not(f) => format!("!{}", f.set(system, Strength::Prefix)),
+            Self::Not(f) => format!("!{}", f.set(words, Strength::Prefix)),
             Self::And(f, g) => two((f, Strength::And), "&", (g, Strength::Compare), Strength::And),
             Self::Or(f, g) => two((f, Strength::Or), "|", (g, Strength::And), Strength::Or),
             Self::Implies(f, g) => two((f, Strength::Or), "->", (g, Strength::Implies), Strength::Implies),
             Self::Iff(f, g) => two((f, Strength::Iff), "<->", (g, Strength::Implies), Strength::Iff),
-            Self::Next(quantifier, f) => format!("{}X {}", letter(*quantifier), f.set(system, Strength::Prefix)),
+            Self::Next(quantifier, f) => format!("{}X {}", letter(*quantifier), f.set(words, Strength::Prefix)),
             Self::Until { quantifier, weak, hold, release } => match (weak, &**hold, &**release) {
                 (false, Self::Truth(true), f) => {
-                    format!("{}F {}", letter(*quantifier), f.set(system, Strength::Prefix))
+                    format!("{}F {}", letter(*quantifier), f.set(words, Strength::Prefix))
                 }
                 (true, f, Self::Truth(false)) => {
-                    format!("{}G {}", letter(*quantifier), f.set(system, Strength::Prefix))
+                    format!("{}G {}", letter(*quantifier), f.set(words, Strength::Prefix))
                 }
                 _ => format!(
                     "{} [{} {} {}]",
                     letter(*quantifier),
-                    hold.text(system),
+                    hold.set(words, Strength::Iff),
                     if *weak { "W" } else { "U" },
-                    release.text(system)
+                    release.set(words, Strength::Iff)
                 ),
             },
         }
@@ -88,27 +135,31 @@ impl Bound {
 
 impl Term {
     /// One side of a comparison. A number beside a variable is written as a value of this variable: `16#8001`, `T#1s`.
-    fn beside(&self, other: &Self, system: &System) -> String {
-        if let (Self::Number(number), Self::Variable(variable, _) | Self::Bits { variable, .. }) = (self, other) {
+    fn beside(&self, other: &Self, words: Words<'_>) -> String {
+        if let (
+            Self::Number(number),
+            Self::Variable(variable, _) | Self::Bits { variable, .. },
+            Words::Program(system),
+        ) = (self, other, words)
+        {
             let ty = system.program.variable(*variable).ty;
             if ty.holds(*number) {
                 return value_text(ty, ty.pattern(*number));
             }
         }
-        self.set(system, Strength::Sum)
+        self.set(words, Strength::Sum)
     }
 
-    fn set(&self, system: &System, around: Strength) -> String {
+    fn set(&self, words: Words<'_>, around: Strength) -> String {
         let two = |a: &Self, sign: &str, b: &Self, strength: Strength| {
-            let text = format!("{} {sign} {}", a.set(system, strength), b.set(system, Strength::Prefix));
+            let text = format!("{} {sign} {}", a.set(words, strength), b.set(words, Strength::Prefix));
             parenthesise(text, strength < around)
         };
         match self {
             Self::Number(number) => number.to_string(),
-            Self::Variable(variable, _) | Self::Bits { variable, .. } => {
-                system.program.variable(*variable).name.clone()
-            }
-            Self::Truth(f) => f.set(system, Strength::Prefix),
+            Self::Variable(variable, _) | Self::Bits { variable, .. } => words.variable(*variable),
+            Self::Tokens(place) => words.tokens(*place),
+            Self::Truth(f) => f.set(words, Strength::Prefix),
             Self::Sum(a, b) => two(a, "+", b, Strength::Sum),
             Self::Difference(a, b) => two(a, "-", b, Strength::Sum),
             Self::Product(a, b) => two(a, "*", b, Strength::Product),
@@ -131,31 +182,41 @@ impl Dag {
     /// What a node says, as a sentence about a state: "`f` is true", "`f` is false", or the temporal formula.
     #[must_use]
     pub fn sentence(&self, id: NodeId, system: &System) -> String {
+        self.say(id, Words::Program(system))
+    }
+
+    /// The same of a node about a net alone.
+    #[must_use]
+    pub fn sentence_in_net(&self, id: NodeId, net: &Net) -> String {
+        self.say(id, Words::Net(net))
+    }
+
+    fn say(&self, id: NodeId, words: Words<'_>) -> String {
         let Node::State { formula, negated } = self.node(id) else {
-            return format!("`{}` holds", self.set(id, system));
+            return format!("`{}` holds", self.set(id, words));
         };
         let (mut formula, mut truth) = (formula, !negated);
         while let Bound::Not(inner) = formula {
             (formula, truth) = (inner, !truth);
         }
-        format!("`{}` is {truth}", formula.text(system))
+        format!("`{}` is {truth}", formula.set(words, Strength::Iff))
     }
 
-    fn set(&self, id: NodeId, system: &System) -> String {
+    fn set(&self, id: NodeId, words: Words<'_>) -> String {
         let operand = |id: &NodeId| match self.node(*id) {
-            Node::And(..) | Node::Or(..) => format!("({})", self.set(*id, system)),
-            _ => self.set(*id, system),
+            Node::And(..) | Node::Or(..) => format!("({})", self.set(*id, words)),
+            _ => self.set(*id, words),
         };
         match self.node(id) {
-            Node::State { formula, negated: false } => formula.set(system, Strength::Prefix),
-            Node::State { formula, negated: true } => format!("!{}", formula.set(system, Strength::Prefix)),
+            Node::State { formula, negated: false } => formula.set(words, Strength::Prefix),
+            Node::State { formula, negated: true } => format!("!{}", formula.set(words, Strength::Prefix)),
             Node::And(f, g) => format!("{} & {}", operand(f), operand(g)),
             Node::Or(f, g) => format!("{} | {}", operand(f), operand(g)),
             Node::Next(q, f) => format!("{}X {}", letter(*q), operand(f)),
             Node::Until(q, f, g) if self.is_constant(*f, true) => format!("{}F {}", letter(*q), operand(g)),
             Node::WeakUntil(q, f, g) if self.is_constant(*g, false) => format!("{}G {}", letter(*q), operand(f)),
-            Node::Until(q, f, g) => format!("{} [{} U {}]", letter(*q), self.set(*f, system), self.set(*g, system)),
-            Node::WeakUntil(q, f, g) => format!("{} [{} W {}]", letter(*q), self.set(*f, system), self.set(*g, system)),
+            Node::Until(q, f, g) => format!("{} [{} U {}]", letter(*q), self.set(*f, words), self.set(*g, words)),
+            Node::WeakUntil(q, f, g) => format!("{} [{} W {}]", letter(*q), self.set(*f, words), self.set(*g, words)),
         }
     }
 

@@ -17,7 +17,15 @@ impl Valuation for ScanValuation<'_> {
         false
     }
 
+    fn tokens(&self, _: PlaceId) -> u64 {
+        0
+    }
+
     fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
+
+    fn is_deadlock(&self) -> bool {
         false
     }
 }
@@ -34,7 +42,15 @@ impl Valuation for MarkingValuation<'_> {
         self.0.is_marked(self.1, place)
     }
 
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.is_marked(place))
+    }
+
     fn is_enabled(&self, transition: TransitionId) -> bool {
         self.0.is_enabled(self.1, transition)
+    }
+
+    fn is_deadlock(&self) -> bool {
+        !self.0.net().transition_ids().any(|transition| self.is_enabled(transition))
     }
 }

@@ -153,7 +153,7 @@ impl Judge<'_> {
 }
 
 /// Whether a node says that something is possible, so that a path shows it.
-fn is_existential(dag: &Dag, node: NodeId) -> bool {
+pub fn is_existential(dag: &Dag, node: NodeId) -> bool {
     match *dag.node(node) {
         Node::State { .. } => false,
         Node::And(f, g) | Node::Or(f, g) => is_existential(dag, f) || is_existential(dag, g),

@@ -4,11 +4,13 @@ mod assumptions;
 mod check;
 mod failing;
 mod hazards;
+mod nets;
 mod remarks;
 mod scan_ends;
 mod views;
 
 pub use check::{Options, check};
+pub use nets::{NetReport, Question, Reply, Run, judge};
 pub use remarks::Remark;
 
 use crate::explore::Stop;

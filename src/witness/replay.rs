@@ -210,7 +210,15 @@ impl Valuation for Replay<'_> {
         self.marking.is_marked(place)
     }
 
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.marking.is_marked(place))
+    }
+
     fn is_enabled(&self, transition: TransitionId) -> bool {
         self.system.net.is_enabled(&self.marking, transition)
+    }
+
+    fn is_deadlock(&self) -> bool {
+        !self.system.net.transition_ids().any(|transition| self.is_enabled(transition))
     }
 }

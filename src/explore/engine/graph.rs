@@ -20,6 +20,18 @@ impl Steps {
         self.starts.len() - 1
     }
 
+    /// Where the successors of each state begin in [`Steps::targets`]; last, where they end.
+    #[must_use]
+    pub fn starts(&self) -> &[u64] {
+        &self.starts
+    }
+
+    /// The successors of all states, one state after another.
+    #[must_use]
+    pub fn targets(&self) -> &[u32] {
+        &self.targets
+    }
+
     /// The successors of a state, one for each transition it enables.
     #[must_use]
     pub fn successors(&self, state: u32) -> &[u32] {

@@ -16,6 +16,12 @@ impl View<'_> {
         self.packing.tokens(self.words, place)
     }
 
+    /// The tokens of all places.
+    #[must_use]
+    pub fn marking(&self) -> Vec<u64> {
+        (0..self.packing.places()).map(|place| self.tokens(place)).collect()
+    }
+
     /// Whether a transition is enabled.
     #[must_use]
     pub fn is_enabled(&self, transition: usize) -> bool {

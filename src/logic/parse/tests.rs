@@ -12,6 +12,8 @@ fn explicit(formula: &Formula) -> String {
         Expression::AtLine(line) => format!("at {line}"),
         Expression::AtIdle => "at idle".to_owned(),
         Expression::AtEnd => "at End".to_owned(),
+        Expression::Deadlock => "at deadlock".to_owned(),
+        Expression::Tokens(name) => format!("#{name}"),
         Expression::Marked(name) => format!("<{name}>"),
         Expression::Enabled(name) => format!("<<{name}>>"),
         Expression::Not(f) => format!("!{}", explicit(f)),
@@ -58,6 +60,8 @@ fn operators_bind_as_the_language_says() {
         ("A = 1 & E | U", "(((A Equal 1) & E) | U)"),
         ("at line 3 -> at idle | at END", "(at 3 -> (at idle | at End))"),
         ("marked(\"S1=1\") & enabled( \"block\" )", "(<S1=1> & <<block>>)"),
+        ("tokens(\"a b\") + 1 < TOKENS ( \"c\" ) | AT DeadLock", "(((#a b + 1) Less #c) | at deadlock)"),
+        ("tokens & deadlock = tokens (* no words here *)", "(tokens & (deadlock Equal tokens))"),
         ("true & pump.T.Q (* comment *) // more", "(true & pump.T.Q)"),
     ];
     for (text, expected) in cases {

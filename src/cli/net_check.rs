@@ -1,0 +1,161 @@
+//! `petril net check`: answers about a net, in the lines of the Model Checking Contest.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use petril::diagnostic::Diagnostic;
+use petril::exchange::mcc::{self, Query};
+use petril::explore::engine::Options;
+use petril::logic::{Nodes, bind_in_net, parse_formula};
+use petril::net::{Located, Net, PlaceId, TransitionId};
+use petril::source::Source;
+use petril::verdict::{Question, Reply, Run, judge};
+use serde_json::json;
+
+use super::args::NetCheck;
+use super::console::Console;
+use super::net_explore::threads;
+use super::progress::Watcher;
+use super::{Failure, Outcome, SUCCESS, input};
+
+pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
+    let (located, _) = input::net(&arguments.model, console)?;
+    let (names, questions) = questions(arguments, &located, console)?;
+    let net = &located.net;
+    let watcher = Watcher::new(&arguments.limits)?;
+    let options = Options { budget: arguments.limits.budget(), threads: threads(&arguments.limits), keep: true };
+    let report = judge(net, &questions, &options, &mut |progress| watcher.watch(progress));
+    watcher.finish();
+    let answers: Vec<Answer<'_>> =
+        names.iter().zip(&report.replies).map(|(name, reply)| Answer { name, reply, net }).collect();
+    if arguments.json {
+        console.print_json(json!({
+            "net": net.name(),
+            "states": report.figures.states,
+            "stop": report.stop.to_string(),
+            "formulas": answers.iter().map(Answer::json).collect::<Vec<_>>(),
+        }))?;
+    } else {
+        let text: String = answers.iter().map(|answer| answer.text(arguments.trace)).collect();
+        console.print(&text)?;
+    }
+    let any = |test: fn(&Reply) -> bool| report.replies.iter().any(test);
+    Ok(match () {
+        () if any(|reply| matches!(reply, Reply::Violated(_))) => ExitCode::from(1),
+        () if any(|reply| matches!(reply, Reply::Unknown(_))) => ExitCode::from(3),
+        () => SUCCESS,
+    })
+}
+
+/// What is asked, and what each question is called. All errors are printed.
+fn questions(
+    arguments: &NetCheck,
+    located: &Located,
+    console: &Console,
+) -> Result<(Vec<String>, Vec<Question>), Failure> {
+    let (mut names, mut questions) = (Vec::new(), Vec::new());
+    let mut failed = false;
+    let mut refuse = |diagnostics: &[Diagnostic], source: &Source| {
+        console.diagnostics(diagnostics, source);
+        failed |= !diagnostics.is_empty();
+    };
+    let by_id = ids(located);
+    for path in &arguments.properties {
+        let source = input::source(path, input::MAX_TEXT, console)?;
+        let (properties, mut errors) = mcc::read(&source);
+        for property in properties {
+            let question = match &property.query {
+                Query::Holds(formula) => bind_in_net(formula, &by_id).map(|bound| Question::Holds(bound.simplified())),
+                Query::Bound(places) => {
+                    by_id.places(places.iter().map(|place| (place.id.as_str(), place.span))).map(Question::Most)
+                }
+            };
+            match question {
+                Ok(question) => {
+                    names.push(property.id);
+                    questions.push(question);
+                }
+                Err(more) => errors.extend(more),
+            }
+        }
+        errors.sort_by_key(Diagnostic::span);
+        refuse(&errors, &source);
+    }
+    let by_name = Nodes::by_name(&located.net);
+    for text in &arguments.formula {
+        let source = Source::new("formula", text.as_str());
+        let bound = parse_formula("formula", &source)
+            .map_err(|error| vec![error])
+            .and_then(|parsed| bind_in_net(&parsed.formula, &by_name));
+        match bound {
+            Ok(bound) => {
+                names.push(text.clone());
+                questions.push(Question::Holds(bound.simplified()));
+            }
+            Err(errors) => refuse(&errors, &source),
+        }
+    }
+    if failed { Err(Failure::Reported) } else { Ok((names, questions)) }
+}
+
+/// The nodes by the ids of the file; by their names where it has none.
+fn ids(located: &Located) -> Nodes<'_> {
+    let Some((places, transitions)) = &located.ids else { return Nodes::by_name(&located.net) };
+    let places = places.iter().enumerate().map(|(i, id)| (id.as_str(), PlaceId::at(i)));
+    let transitions = transitions.iter().enumerate().map(|(i, id)| (id.as_str(), TransitionId::at(i)));
+    Nodes::by_id(places, transitions)
+}
+
+struct Answer<'r> {
+    name: &'r str,
+    reply: &'r Reply,
+    net: &'r Net,
+}
+
+impl Answer<'_> {
+    fn run(&self) -> Option<&Run> {
+        match self.reply {
+            Reply::Holds(run) | Reply::Violated(run) => run.as_ref(),
+            _ => None,
+        }
+    }
+
+    fn firings(&self, run: &Run) -> Vec<&str> {
+        run.firings.iter().map(|&id| self.net.transition(id).name).collect()
+    }
+
+    fn text(&self, trace: bool) -> String {
+        let mut out = String::new();
+        let word = match self.reply {
+            Reply::Holds(_) => "TRUE".to_owned(),
+            Reply::Violated(_) => "FALSE".to_owned(),
+            Reply::Most(most) => most.to_string(),
+            Reply::Unknown(_) => "CANNOT_COMPUTE".to_owned(),
+        };
+        let _ = writeln!(out, "FORMULA {} {word} TECHNIQUES EXPLICIT", self.name);
+        if let Reply::Unknown(reason) = self.reply {
+            let _ = writeln!(out, "    {reason}");
+        }
+        if let Some(run) = self.run().filter(|_| trace) {
+            for (i, name) in self.firings(run).into_iter().enumerate() {
+                let again = if run.loop_start == Some(i) { "  (from here for ever)" } else { "" };
+                let _ = writeln!(out, "    {:>4}  {name}{again}", i + 1);
+            }
+            if run.firings.is_empty() {
+                out += "    the initial marking shows it\n";
+            }
+        }
+        out
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let (verdict, reason) = match self.reply {
+            Reply::Holds(_) => (json!("holds"), None),
+            Reply::Violated(_) => (json!("violated"), None),
+            Reply::Most(most) => (json!(most), None),
+            Reply::Unknown(reason) => (json!("unknown"), Some(reason)),
+        };
+        let trace = self.run().map(|run| json!({ "firings": self.firings(run), "loop_start": run.loop_start }));
+        json!({ "name": self.name, "verdict": verdict, "reason": reason, "trace": trace })
+    }
+}
