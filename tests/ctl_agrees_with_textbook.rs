@@ -105,6 +105,18 @@ fn given() -> impl Strategy<Value = Given> {
     })
 }
 
+/// A formula under one more operator, one of those that like to meet themselves.
+fn within(f: Bound, operator: usize) -> Bound {
+    let (f, constant) = (Box::new(f), |value| Box::new(Bound::Truth(value)));
+    let quantifier = if operator < 3 { Quantifier::All } else { Quantifier::Some };
+    match operator % 3 {
+        0 => Bound::Until { quantifier, weak: true, hold: f, release: constant(false) },
+        1 => Bound::Until { quantifier, weak: false, hold: constant(true), release: f },
+        _ if operator == 2 => Bound::Not(f),
+        _ => Bound::Until { quantifier, weak: false, hold: Box::new(Bound::Variable(VarId(0))), release: f },
+    }
+}
+
 fn formula() -> impl Strategy<Value = Bound> {
     random_formula::formula((0..3).map(|v| Bound::Variable(VarId(v))).collect(), true)
 }
@@ -158,6 +170,29 @@ proptest! {
                 prop_assert_eq!(holds, truth[state] != negated, "state {}", state);
             }
         }
+    }
+
+    /// By the textbook alone: what is left of a formula holds in the same states, also under fairness.
+    #[test]
+    fn simplified_formulas_hold_in_the_same_states(
+        given in given(),
+        formula in formula(),
+        around in proptest::collection::vec(0..6_usize, 0..4),
+        fair in any::<bool>(),
+    ) {
+        let formula = around.into_iter().fold(formula, within);
+        // Every state gets a way to a fair state.
+        let n = given.marks.len();
+        let mut kripke = given.kripke(fair.then(|| (0..=n).map(|s| s == n || given.marks[s] & 128 != 0).collect::<Vec<_>>()));
+        if fair {
+            kripke.successors.iter_mut().for_each(|next| next.push(n));
+            kripke.successors.push((0..n).collect());
+        }
+        let marks = |s: usize| given.marks.get(s).copied().unwrap_or(5);
+        let atom = |f: &Bound, s: usize| f.holds_in(&Marks(marks(s))).unwrap();
+        let left = formula.clone().simplified();
+        prop_assert_eq!(kripke.states(&left, &atom), kripke.states(&formula, &atom), "{:?}", left);
+        prop_assert_eq!(left.clone().simplified(), left);
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod label;
 mod literal;
 mod parse;
 mod representatives;
+mod simplify;
 mod text;
 mod vacuity;
 mod valuations;
