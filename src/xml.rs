@@ -71,3 +71,19 @@ pub(crate) fn attribute(node: Node<'_, '_>, name: &str) -> Option<Text> {
     let range = attribute.range_value();
     Some(Text { text: attribute.value().trim().to_owned(), span: Span::new(range.start, range.end) })
 }
+
+/// What an element holds as text, without comments and elements in it; where there is none, the span is its tag's.
+pub(crate) fn content(element: Node<'_, '_>) -> Text {
+    let text: String = element.children().filter(Node::is_text).filter_map(|piece| piece.text()).collect();
+    let written = element.children().find(|piece| piece.is_text() && !piece.text().unwrap_or("").trim().is_empty());
+    let span = written.map_or_else(
+        || tag_span(element),
+        |piece| {
+            let range = piece.range();
+            let source = &element.document().input_text()[range.clone()];
+            let start = range.start + source.len() - source.trim_start().len();
+            Span::new(start, start + source.trim().len())
+        },
+    );
+    Text { text: text.trim().to_owned(), span }
+}

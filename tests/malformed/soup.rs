@@ -1,9 +1,9 @@
 //! Words of each language in any order: whatever is read, every diagnostic points into the text and can be printed.
 
 use petril::diagnostic::{Diagnostic, Style, any_error, render};
-use petril::exchange::{pnml, tina};
+use petril::exchange::{mcc, pnml, tina};
 use petril::flat::flatten;
-use petril::logic::{View, bind, parse_requirements};
+use petril::logic::{Nodes, View, bind, bind_in_net, parse_requirements};
 use petril::source::Source;
 use petril::translate::{Plant, System};
 use petril::{semantics, syntax};
@@ -134,6 +134,36 @@ const PNML: &[&str] = &[
     ">",
     "'",
 ];
+/// Whole elements most of the time, so that some documents are well-formed.
+const PROPERTY: &[&str] = &[
+    "<property><id>a</id><description>ä</description><formula><place-bound><place>p</place></place-bound></formula></property>",
+    "</formula></property><property><id>ö&amp;</id><formula>",
+    "<all-paths><globally>",
+    "</globally></all-paths>",
+    "<exists-path><until><before><true/></before><reach>",
+    "</reach></until></exists-path>",
+    "<exists-path><next><deadlock/></next></exists-path>",
+    "<finally><false/></finally>",
+    "<conjunction>",
+    "</conjunction>",
+    "<implication>",
+    "</implication>",
+    "<negation>",
+    "</negation>",
+    "<is-fireable><transition>t</transition><transition> ü </transition></is-fireable>",
+    "<integer-le><tokens-count><place>p</place><place>q</place></tokens-count><integer-constant>ä</integer-constant></integer-le>",
+    "<integer-eq><integer-sum><integer-constant>1</integer-constant></integer-sum><integer-constant>-1</integer-constant></integer-eq>",
+    "<tokens-count><place/></tokens-count>",
+    "<place-bound/>",
+    "<id x='ä'/>",
+    "<![CDATA[ä]]>",
+    "<!-- ä -->",
+    "&#1;",
+    "ä",
+    "\n",
+    "<",
+];
+
 const REQUIREMENT: &[&str] = &[
     "requirement ",
     "r",
@@ -244,6 +274,23 @@ proptest! {
         if let Err(diagnostics) = pnml::read(&source) {
             prop_assert!(any_error(&diagnostics));
             are_printable(&diagnostics, &source)?;
+        }
+    }
+
+    #[test]
+    fn of_properties(formula in soup(PROPERTY), framed in any::<bool>()) {
+        let (head, tail) = ("<property-set><property><id>x</id><formula>", "</formula></property></property-set>");
+        let source = Source::new("soup", if framed { format!("{head}{formula}{tail}") } else { formula });
+        let (properties, diagnostics) = mcc::read(&source);
+        are_printable(&diagnostics, &source)?;
+        prop_assert!(!properties.is_empty() || any_error(&diagnostics));
+        for property in properties {
+            if let mcc::Query::Holds(formula) = property.query
+                && let Err(diagnostics) = bind_in_net(&formula, &Nodes::by_id([], []))
+            {
+                prop_assert!(any_error(&diagnostics));
+                are_printable(&diagnostics, &source)?;
+            }
         }
     }
 

@@ -3,8 +3,7 @@
 use roxmltree::Node;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
-use crate::xml::{Text, attribute, elements, tag, tag_span};
+use crate::xml::{Text, attribute, content, elements, tag, tag_span};
 
 /// An attribute that must be there.
 pub fn required(node: Node<'_, '_>, name: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<Text> {
@@ -18,19 +17,7 @@ pub fn required(node: Node<'_, '_>, name: &str, diagnostics: &mut Vec<Diagnostic
 
 /// The content of the element `<text>` of a label.
 pub fn text(label: Node<'_, '_>) -> Option<Text> {
-    let element = elements(label).find(|&child| tag(child) == "text")?;
-    let content: String = element.children().filter(Node::is_text).filter_map(|piece| piece.text()).collect();
-    let written = element.children().find(|piece| piece.is_text() && !piece.text().unwrap_or("").trim().is_empty());
-    let span = written.map_or_else(
-        || tag_span(element),
-        |piece| {
-            let range = piece.range();
-            let source = &element.document().input_text()[range.clone()];
-            let start = range.start + source.len() - source.trim_start().len();
-            Span::new(start, start + source.trim().len())
-        },
-    );
-    Some(Text { text: content.trim().to_owned(), span })
+    elements(label).find(|&child| tag(child) == "text").map(content)
 }
 
 /// The natural number of a label, without leading zeros.
