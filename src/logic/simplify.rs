@@ -166,7 +166,7 @@ mod tests {
     fn simplified(text: &str) -> String {
         let mut builder = Builder::new("net");
         let (p, q) = (builder.place("p", true), builder.place("q", false));
-        builder.transition("t", Arcs { consume: vec![p], produce: vec![q], read: vec![] });
+        builder.transition("t", Arcs { consume: &[p], produce: &[q], read: &[] });
         let net = builder.build();
         let letters = [
             ("#p", "tokens(\"p\")"),

@@ -37,7 +37,7 @@ fn net() -> Net {
     let mut builder = Builder::new("net");
     let places = ["p", "q", "r"].map(|name| builder.place(name, name == "p"));
     for (name, to) in [("t", 1), ("u", 2)] {
-        builder.transition(name, Arcs { consume: vec![places[0]], produce: vec![places[to]], read: vec![] });
+        builder.transition(name, Arcs { consume: &places[..1], produce: &places[to..=to], read: &[] });
     }
     builder.build()
 }
