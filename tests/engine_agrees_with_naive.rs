@@ -249,6 +249,23 @@ fn threads_share_large_nets() {
 }
 
 #[test]
+fn nets_have_many_transitions() {
+    // A ring of 5000 places and one of four, which do not know of each other.
+    let mut model = rings(1, 0);
+    for place in 0..5000 {
+        model.initial.push(u64::from(place == 0));
+        model.transitions.push(Arcs { pre: vec![(4 + place, 1)], post: vec![(4 + (place + 1) % 5000, 1)] });
+    }
+    for threads in [1, 2] {
+        let exploration = all(&model, &options(threads));
+        let figures = &exploration.figures;
+        assert_eq!((figures.states, figures.transitions, figures.depth), (20_000, 40_000, 4999 + 3));
+        assert_eq!((figures.bits, figures.max_tokens_in_marking), (2 + 13, 2));
+        assert!(figures.never_enabled.is_empty());
+    }
+}
+
+#[test]
 fn a_counter_without_end_is_stopped() {
     let model = Model { initial: vec![0], transitions: vec![Arcs { pre: vec![], post: vec![(0, 1)] }] };
     let budget = Budget { states: 100_000, ..Budget::default() };

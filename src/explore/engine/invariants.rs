@@ -5,6 +5,8 @@
 //! left out. The number of minimal invariants can be exponential, so there are limits; rows beyond them are left out, which
 //! loses invariants but never makes a wrong one.
 
+use std::collections::BTreeSet;
+
 use super::model::Rule;
 
 /// Places with weights, ascending; in every reachable marking the weighted sum of their tokens is `tokens`.
@@ -31,25 +33,117 @@ const WORK: u64 = 20_000_000;
 
 /// Minimal invariants of a net, perhaps not all.
 pub(super) fn invariants(initial: &[u64], rules: &[Rule], wanted: Wanted) -> Vec<Invariant> {
-    let mut rows: Vec<Row> = (0..initial.len()).map(|place| Row::of(place, initial[place])).collect();
+    let mut singles: Vec<Row> = (0..initial.len()).map(|place| Row::of(place, initial[place])).collect();
     for (transition, rule) in rules.iter().enumerate() {
         for touch in rule.iter().filter(|touch| touch.change() != 0) {
-            rows[touch.place].changes.push((transition as u32, touch.change()));
+            singles[touch.place].changes.push((transition as u32, touch.change()));
         }
     }
-    rows.retain(|row| row.is(wanted));
-    let limit = ROWS.0 * initial.len() + ROWS.1;
-    let mut work = 0;
-    let mut counts = Counts::of(&rows, rules.len());
-    while let Some(transition) = counts.cheapest() {
-        work += rules.len() as u64;
-        eliminate(transition, &mut rows, wanted, limit, &mut counts, &mut work);
-        if work > WORK {
-            rows.retain(|row| row.changes.is_empty());
-            break;
+    let mut tableau = Tableau::new(initial.len(), rules.len(), wanted);
+    singles.into_iter().filter(|row| row.is(wanted)).for_each(|row| tableau.add(row));
+    while let Some(&(_, transition)) = tableau.order.first() {
+        tableau.eliminate(transition);
+    }
+    let done = tableau.rows.into_iter().flatten().filter(|row| row.changes.is_empty());
+    done.map(|row| Invariant { weights: row.weights, tokens: row.tokens }).collect()
+}
+
+/// The rows at some stage, and where they are found.
+struct Tableau {
+    wanted: Wanted,
+    /// Rows taken away leave a gap.
+    rows: Vec<Option<Row>>,
+    len: usize,
+    limit: usize,
+    work: u64,
+    /// The rows that change a transition had when they were added.
+    changing: Vec<Vec<u32>>,
+    /// The rows whose first place it is.
+    beginning: Vec<Vec<u32>>,
+    /// How many rows gain and lose tokens by each transition.
+    counts: Vec<(u64, u64)>,
+    /// The transitions that rows change, that whose elimination adds the fewest rows first.
+    order: BTreeSet<(i64, u32)>,
+}
+
+impl Tableau {
+    fn new(places: usize, transitions: usize, wanted: Wanted) -> Self {
+        Self {
+            wanted,
+            rows: Vec::new(),
+            len: 0,
+            limit: ROWS.0 * places + ROWS.1,
+            work: 0,
+            changing: vec![Vec::new(); transitions],
+            beginning: vec![Vec::new(); places],
+            counts: vec![(0, 0); transitions],
+            order: BTreeSet::new(),
         }
     }
-    rows.into_iter().map(|row| Invariant { weights: row.weights, tokens: row.tokens }).collect()
+
+    fn add(&mut self, row: Row) {
+        let number = self.rows.len() as u32;
+        row.changes.iter().for_each(|&(transition, _)| self.changing[transition as usize].push(number));
+        self.beginning[row.weights[0].0].push(number);
+        self.count(&row, 1);
+        self.rows.push(Some(row));
+        self.len += 1;
+    }
+
+    fn remove(&mut self, number: u32) -> Option<Row> {
+        let row = self.rows[number as usize].take()?;
+        self.count(&row, -1);
+        self.len -= 1;
+        Some(row)
+    }
+
+    fn count(&mut self, row: &Row, sign: i64) {
+        let cost = |(gain, lose): (u64, u64)| (gain * lose) as i64 - (gain + lose) as i64;
+        for &(transition, change) in &row.changes {
+            let counts = &mut self.counts[transition as usize];
+            self.order.remove(&(cost(*counts), transition));
+            let one = if change > 0 { &mut counts.0 } else { &mut counts.1 };
+            *one = one.wrapping_add_signed(sign);
+            if *counts != (0, 0) {
+                self.order.insert((cost(*counts), transition));
+            }
+        }
+    }
+
+    /// Replaces the rows that a transition changes by their combinations.
+    fn eliminate(&mut self, transition: u32) {
+        let numbers = std::mem::take(&mut self.changing[transition as usize]);
+        let changed: Vec<Row> = numbers.into_iter().filter_map(|number| self.remove(number)).collect();
+        let (gain, lose): (Vec<&Row>, Vec<&Row>) = changed.iter().partition(|row| row.change(transition) > 0);
+        let mut fresh: Vec<Row> = Vec::new();
+        for one in &gain {
+            for other in &lose {
+                self.work += 1;
+                if self.work > WORK || self.wanted == Wanted::OneToken && one.tokens + other.tokens > 1 {
+                    continue;
+                }
+                let Some(row) = one.combine(other, transition).filter(|row| row.is(self.wanted)) else { continue };
+                self.work += (row.weights.len() + row.changes.len() + fresh.len()) as u64;
+                if !self.holds_support_in(&row) && !fresh.iter().any(|smaller| row.holds_support_of(smaller)) {
+                    fresh.retain(|larger| !larger.holds_support_of(&row));
+                    fresh.push(row);
+                }
+            }
+        }
+        // Small supports are the more useful ones.
+        fresh.sort_by_key(|row| row.weights.len());
+        fresh.truncate(self.limit.saturating_sub(self.len));
+        fresh.into_iter().for_each(|row| self.add(row));
+    }
+
+    /// Whether the support of some row is part of that of another one.
+    fn holds_support_in(&mut self, larger: &Row) -> bool {
+        larger.weights.iter().any(|&(place, _)| {
+            self.work += self.beginning[place].len() as u64;
+            let mut smaller = self.beginning[place].iter().filter_map(|&number| self.rows[number as usize].as_ref());
+            smaller.any(|smaller| larger.holds_support_of(smaller))
+        })
+    }
 }
 
 /// A weighted sum of places: what it is worth initially, and how the transitions not yet eliminated change it.
@@ -108,61 +202,6 @@ impl Row {
             self.tokens /= common;
         }
     }
-}
-
-/// How many rows gain and lose tokens by each transition.
-struct Counts(Vec<(u64, u64)>);
-
-impl Counts {
-    fn of(rows: &[Row], transitions: usize) -> Self {
-        let mut counts = Self(vec![(0, 0); transitions]);
-        rows.iter().for_each(|row| counts.add(row, 1));
-        counts
-    }
-
-    fn add(&mut self, row: &Row, sign: i64) {
-        for &(transition, change) in &row.changes {
-            let (gain, lose) = &mut self.0[transition as usize];
-            let count = if change > 0 { gain } else { lose };
-            *count = count.wrapping_add_signed(sign);
-        }
-    }
-
-    /// The transition whose elimination adds the fewest rows.
-    fn cheapest(&self) -> Option<u32> {
-        let left = self.0.iter().zip(0..).filter(|((gain, lose), _)| gain + lose > 0);
-        left.min_by_key(|((gain, lose), _)| (gain * lose) as i64 - (gain + lose) as i64)
-            .map(|(_, transition)| transition)
-    }
-}
-
-/// Replaces the rows that a transition changes by their combinations.
-fn eliminate(transition: u32, rows: &mut Vec<Row>, wanted: Wanted, limit: usize, counts: &mut Counts, work: &mut u64) {
-    let (changed, kept): (Vec<Row>, Vec<Row>) =
-        std::mem::take(rows).into_iter().partition(|row| row.change(transition) != 0);
-    changed.iter().for_each(|row| counts.add(row, -1));
-    *rows = kept;
-    *work += rows.len() as u64;
-    let (gain, lose): (Vec<&Row>, Vec<&Row>) = changed.iter().partition(|row| row.change(transition) > 0);
-    let mut fresh: Vec<Row> = Vec::new();
-    for one in &gain {
-        for other in &lose {
-            if *work > WORK || wanted == Wanted::OneToken && one.tokens + other.tokens > 1 {
-                continue;
-            }
-            let Some(row) = one.combine(other, transition).filter(|row| row.is(wanted)) else { continue };
-            *work += (row.weights.len() + row.changes.len() + rows.len() + fresh.len()) as u64;
-            if !rows.iter().chain(&fresh).any(|smaller| row.holds_support_of(smaller)) {
-                fresh.retain(|larger| !larger.holds_support_of(&row));
-                fresh.push(row);
-            }
-        }
-    }
-    // Small supports are the more useful ones.
-    fresh.sort_by_key(|row| row.weights.len());
-    fresh.truncate(limit.saturating_sub(rows.len()));
-    fresh.iter().for_each(|row| counts.add(row, 1));
-    rows.append(&mut fresh);
 }
 
 /// Two ascending lists in one, the values of each key combined; 0 stands for a value that is not there.

@@ -1,10 +1,11 @@
 //! A net made ready for exploration: packing, tables, and what firing adds.
 
+use super::allowed::Allowed;
+use super::conditions::Conditions;
 use super::cover::Bounds;
 use super::fold::{Above, Fold};
 use super::model::Rule;
 use super::packing::Packing;
-use super::rows::Rows;
 use super::swaps::Swaps;
 use super::tally::Meter;
 
@@ -17,9 +18,9 @@ pub(super) struct Machine {
     /// Words of a set of transitions.
     pub(super) width: usize,
     /// The transitions a marking enables.
-    pub(super) enabled: Rows,
-    /// The transitions whose firing no digit is too small for.
-    pub(super) fits: Rows,
+    pub(super) enabled: Allowed,
+    /// The transitions whose firing no digit is too small for; nothing if that is all.
+    pub(super) fits: Option<Allowed>,
     pub(super) swaps: Swaps,
     pub(super) meter: Meter,
     /// What firing a transition adds to a marking of one word.
@@ -44,6 +45,8 @@ impl Machine {
             words @ 5..=8 => words.next_multiple_of(2),
             words => words,
         };
+        let grows = packing.unproven().next().is_some();
+        let fits = grows.then(|| Allowed::of(&packing, &Conditions::fitting(&packing, rules, bounds), width, false));
         let rows: Vec<Vec<u64>> = rules.iter().map(|rule| packing.change(rule)).collect();
         let fold = (packing.words() > 1).then(|| Fold::new(packing.words()));
         let changes = fold.iter().flat_map(|fold| rows.iter().map(|row| Changes::of(row, fold))).collect();
@@ -51,8 +54,8 @@ impl Machine {
             initial: packing.pack(initial).unwrap_or_default(),
             transitions: rules.len(),
             width,
-            enabled: Rows::enabled(&packing, rules, width),
-            fits: Rows::fitting(&packing, rules, bounds, width),
+            enabled: Allowed::of(&packing, &Conditions::enabling(&packing, rules), width, true),
+            fits,
             swaps: Swaps::of(rules, initial.len(), width),
             meter: Meter::of(&packing, initial, rules),
             change: rows.iter().map(|row| row[0]).collect(),
@@ -81,7 +84,7 @@ impl Machine {
 
     /// Bytes in use.
     pub(super) fn bytes(&self) -> u64 {
-        self.enabled.bytes() + self.fits.bytes() + self.swaps.bytes()
+        self.enabled.bytes() + self.fits.as_ref().map_or(0, Allowed::bytes) + self.swaps.bytes()
     }
 }
 

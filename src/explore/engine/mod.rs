@@ -1,10 +1,13 @@
 //! Explicit exploration of place/transition nets, built for speed and small memory.
 //!
 //! A [`Model`] is any place/transition net. Its place invariants tell how few bits a marking needs (`cover`, `packing`);
-//! tables tell what a packed marking enables (`rows`), and firing is one addition. Firings that another order of the same
+//! tables tell what a packed marking enables (`rows`, `candidates`), and firing is one addition. Firings that another order of the same
 //! firings makes superfluous are left out (`swaps`). States are entered into a table whose entries hold only what their place in
 //! it does not say (`lines`, `keys`), those of more than 64 bits after being folded (`fold`).
 
+mod allowed;
+mod candidates;
+mod conditions;
 mod cover;
 mod exploration;
 mod fold;

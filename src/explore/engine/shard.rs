@@ -193,7 +193,7 @@ impl Shard {
             }
             let set: &mut [u64] = if WIDTH == 0 { &mut many } else { &mut few };
             machine.enabled.put(words, set);
-            if !machine.fits.is_empty() && !machine.fits.allows(words, set) {
+            if machine.fits.as_ref().is_some_and(|fits| !fits.allows(words, set)) {
                 halt = Some(Halt::Overflow(words.to_vec()));
                 break;
             }

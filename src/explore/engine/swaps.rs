@@ -12,52 +12,93 @@
 use super::model::{Rule, Touch};
 
 /// For each transition by which a state was reached, the transitions to be fired there.
-pub(super) struct Swaps {
-    /// A row for each transition, and one more for states that were not reached by any.
-    fired: Vec<u64>,
+pub(super) enum Swaps {
+    /// A row of bits for each transition, and one more for states that were not reached by any.
+    Rows(Vec<u64>),
+    /// For each transition, those before it that are to be fired, as words of the row of bits that are not 0.
+    Lists(Vec<Box<[(u32, u64)]>>),
 }
 
-/// Transitions above this number would make the table too large; nothing is left out then.
-const MOST: usize = 8192;
+/// Words of all rows together beyond which there are lists: 2 MiB.
+const ROWS: usize = 1 << 18;
 
 impl Swaps {
-    /// Rows have `width` words.
+    /// Sets of transitions have `width` words.
     pub(super) fn of(rules: &[Rule], places: usize, width: usize) -> Self {
-        if rules.len() > MOST {
-            return Self { fired: Vec::new() };
-        }
-        let mut fired = vec![u64::MAX; (rules.len() + 1) * width];
         let mut touching: Vec<Vec<usize>> = vec![Vec::new(); places];
         for (transition, rule) in rules.iter().enumerate() {
             rule.iter().for_each(|touch| touching[touch.place].push(transition));
         }
-        for (b, rule) in rules.iter().enumerate() {
-            let row = &mut fired[b * width..(b + 1) * width];
-            // Those before b that share no place with it can be swapped with it; of the others each is examined.
-            (0..b).for_each(|a| row[a / 64] &= !(1 << (a % 64)));
-            for &a in rule.iter().flat_map(|touch| &touching[touch.place]).filter(|&&a| a < b) {
-                if !swappable(rule, &rules[a]) {
-                    row[a / 64] |= 1 << (a % 64);
-                }
+        // Those that share no place with b can be swapped with it; of the others each is examined.
+        let fired = |(b, rule): (usize, &Rule)| {
+            let near = rule.iter().flat_map(|touch| &touching[touch.place]).copied().filter(|&a| a < b);
+            let mut fired: Vec<usize> = near.collect();
+            fired.sort_unstable();
+            fired.dedup();
+            fired.retain(|&a| !swappable(rule, &rules[a]));
+            fired
+        };
+        let fired = rules.iter().enumerate().map(fired);
+        if (rules.len() + 1) * width <= ROWS {
+            let mut rows = vec![u64::MAX; (rules.len() + 1) * width];
+            for ((b, fired), row) in fired.enumerate().zip(rows.chunks_exact_mut(width)) {
+                (0..b).for_each(|a| row[a / 64] &= !(1 << (a % 64)));
+                fired.into_iter().for_each(|a| row[a / 64] |= 1 << (a % 64));
             }
+            Self::Rows(rows)
+        } else {
+            Self::Lists(fired.map(|fired| words(&fired)).collect())
         }
-        Self { fired }
-    }
-
-    /// Bytes in use.
-    pub(super) fn bytes(&self) -> u64 {
-        self.fired.capacity() as u64 * 8
     }
 
     /// Leaves in `set` what is to be fired in a state reached by `via`.
     #[inline(always)]
     pub(super) fn restrict(&self, via: u32, set: &mut [u64]) {
-        let start = via as usize * set.len();
-        if let Some(row) = self.fired.get(start..start + set.len()) {
-            for (word, row) in set.iter_mut().zip(row) {
-                *word &= row;
+        match self {
+            Self::Rows(rows) => {
+                let row = &rows[via as usize * set.len()..][..set.len()];
+                set.iter_mut().zip(row).for_each(|(word, row)| *word &= row);
+            }
+            Self::Lists(lists) => {
+                if let Some(list) = lists.get(via as usize) {
+                    restrict(list, via, set);
+                }
             }
         }
+    }
+
+    /// Bytes in use.
+    pub(super) fn bytes(&self) -> u64 {
+        match self {
+            Self::Rows(rows) => rows.capacity() as u64 * 8,
+            Self::Lists(lists) => lists.iter().map(|list| 16 + 16 * list.len() as u64).sum(),
+        }
+    }
+}
+
+/// Ascending numbers as the words of a set that are not 0.
+fn words(numbers: &[usize]) -> Box<[(u32, u64)]> {
+    let same_word = numbers.chunk_by(|a, b| a / 64 == b / 64);
+    let word = |numbers: &[usize]| {
+        ((numbers[0] / 64) as u32, numbers.iter().fold(0, |word, number| word | 1 << (number % 64)))
+    };
+    same_word.map(word).collect()
+}
+
+#[inline(never)]
+fn restrict(list: &[(u32, u64)], via: u32, set: &mut [u64]) {
+    let (last, bit) = (via as usize / 64, via % 64);
+    let mut next = 0;
+    for &(position, kept) in list {
+        let position = position as usize;
+        set[next..position.min(last)].fill(0);
+        // The word of `via` itself also has transitions behind it.
+        set[position] &= if position == last { kept | u64::MAX << bit } else { kept };
+        next = position + 1;
+    }
+    if next <= last {
+        set[next..last].fill(0);
+        set[last] &= u64::MAX << bit;
     }
 }
 
@@ -73,4 +114,27 @@ fn swappable(b: &Rule, a: &Rule) -> bool {
         needed(at(b), at(a)) >= needed(at(a), at(b))
     };
     b.iter().chain(a).all(|touch| enough(touch.place))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Swaps, restrict, words};
+
+    #[test]
+    fn lists_say_what_rows_say() {
+        for via in [0, 1, 63, 64, 65, 127, 128, 191] {
+            for step in [1, 3, 64, 100, 1000] {
+                let kept: Vec<usize> = (0..via).rev().step_by(step).collect::<Vec<usize>>().into_iter().rev().collect();
+                let mut set = [u64::MAX; 3];
+                restrict(&words(&kept), via as u32, &mut set);
+                let has = |transition: usize| set[transition / 64] >> (transition % 64) & 1 == 1;
+                assert!(
+                    (0..192).all(|transition| has(transition) == (transition >= via || kept.contains(&transition)))
+                );
+            }
+        }
+        let mut set = [5];
+        Swaps::Lists(Vec::new()).restrict(0, &mut set);
+        assert_eq!(set, [5], "a state that was not reached by any transition");
+    }
 }

@@ -1,0 +1,54 @@
+//! Which transitions a marking allows, by rows of bits or, if these would be too much, by lists of candidates.
+
+use super::candidates::Candidates;
+use super::conditions::Conditions;
+use super::packing::Packing;
+use super::rows::Rows;
+
+/// One way or the other.
+pub(super) enum Allowed {
+    Rows(Rows),
+    Candidates(Candidates),
+}
+
+/// Words of all rows together beyond which candidates are listed: 2 MiB, about what a processor has near.
+const ROWS: u64 = 1 << 18;
+
+impl Allowed {
+    /// Sets of transitions have `width` words. If not `listed`, [`Self::put`] must not be called.
+    pub(super) fn of(packing: &Packing, conditions: &Conditions, width: usize, listed: bool) -> Self {
+        let asked = packing.chunks.iter().filter(|chunk| !conditions.touching(chunk).is_empty());
+        let rows: u64 = asked.map(|chunk| conditions.values(chunk).len() as u64).sum();
+        if rows * width as u64 <= ROWS {
+            Self::Rows(Rows::of(packing, conditions, width))
+        } else {
+            Self::Candidates(Candidates::of(packing, conditions, listed))
+        }
+    }
+
+    /// Puts into `set` what the marking allows.
+    #[inline(always)]
+    pub(super) fn put(&self, words: &[u64], set: &mut [u64]) {
+        match self {
+            Self::Rows(rows) => rows.put(words, set),
+            Self::Candidates(candidates) => candidates.put(words, set),
+        }
+    }
+
+    /// Whether the marking allows all of a set.
+    #[inline(always)]
+    pub(super) fn allows(&self, words: &[u64], set: &[u64]) -> bool {
+        match self {
+            Self::Rows(rows) => rows.is_empty() || rows.allows(words, set),
+            Self::Candidates(candidates) => candidates.allows(words, set),
+        }
+    }
+
+    /// Bytes in use.
+    pub(super) fn bytes(&self) -> u64 {
+        match self {
+            Self::Rows(rows) => rows.bytes(),
+            Self::Candidates(candidates) => candidates.bytes(),
+        }
+    }
+}
