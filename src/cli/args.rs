@@ -224,7 +224,7 @@ pub struct Draw {
 /// The verbs on nets.
 #[derive(Debug, Subcommand)]
 pub enum NetVerb {
-    /// Print size and behaviour of a net: reachable markings, safe or not, deadlocks, dead transitions, live or not.
+    /// Print size and behaviour of a safe net: reachable markings, safe or not, deadlocks, dead transitions, live or not.
     Info(NetInfo),
     /// Answer questions about a net: formulas, or the properties of a file of the Model Checking Contest.
     Check(NetCheck),
@@ -272,7 +272,7 @@ pub struct NetExplore {
 /// `petril net info`
 #[derive(Debug, clap::Args)]
 pub struct NetInfo {
-    /// The net (.pnml or .net).
+    /// The net (.pnml or .net), with arcs of weight 1 and one token a place at most.
     #[arg(value_name = "MODEL")]
     pub model: PathBuf,
     /// Print one JSON document.

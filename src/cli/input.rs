@@ -100,7 +100,7 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
 }
 
 /// Reads a net that can be safe.
-fn safe_net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
+pub fn safe_net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
     let (net, source) = net(path, console)?;
     match net.safe() {
         Ok(net) => Ok((net, source)),

@@ -16,7 +16,7 @@ use super::{Outcome, SUCCESS, input};
 const NAMED: usize = 20;
 
 pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
-    let (located, _) = input::net(&arguments.model, console)?;
+    let (located, _) = input::safe_net(&arguments.model, console)?;
     let net = located.net;
     let watcher = Watcher::new(&arguments.limits)?;
     let space = MarkingSpace::new(&net);
