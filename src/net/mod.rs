@@ -33,7 +33,7 @@ pub use arcs::Arcs;
 pub use builder::Builder;
 pub use located::Located;
 pub use marking::{Marking, NotSafe};
-pub use tokens::Tokens;
+pub use tokens::{Overflow, Tokens};
 
 use arcs::ArcTable;
 use names::Names;
