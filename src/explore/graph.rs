@@ -39,12 +39,19 @@ impl Graph {
     #[must_use]
     pub fn of_rows(starts: Vec<u64>, targets: Vec<u32>) -> Self {
         let states = starts.len().saturating_sub(1) as u32;
+        let store = Store::elsewhere(states as usize);
+        let (initial, row_of) = ((0..states.min(1)).collect(), (0..states).collect());
+        Self { store, initial, row_of, starts, targets, ..Self::empty(0) }
+    }
+
+    /// No states yet, of this many words.
+    pub(super) fn empty(words: usize) -> Self {
         Self {
-            store: Store::elsewhere(states as usize),
-            initial: (0..states.min(1)).collect(),
-            row_of: (0..states).collect(),
-            starts,
-            targets,
+            store: Store::new(words),
+            initial: Vec::new(),
+            row_of: Vec::new(),
+            starts: vec![0],
+            targets: Vec::new(),
             parents: Vec::new(),
             levels: Vec::new(),
             failures: Vec::new(),

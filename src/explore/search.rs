@@ -22,27 +22,11 @@ const ALONE: usize = 64;
 pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Graph {
     // Numbers of states and rows have 32 bits; half of that leaves room for a batch.
     let budget = Budget { states: budget.states.min(u64::from(u32::MAX) >> 1), ..budget };
-    let mut search = Search { space, budget, graph: empty(space.words()), kernels: None };
+    let mut search = Search { space, budget, graph: Graph::empty(space.words()), kernels: None };
     search.kernels = space.relevant().map(|_| Store::new(space.words()));
     search.graph.stop = search.run(watch);
     watch(&search.progress());
     search.graph
-}
-
-fn empty(words: usize) -> Graph {
-    Graph {
-        store: Store::new(words),
-        initial: Vec::new(),
-        row_of: Vec::new(),
-        starts: vec![0],
-        targets: Vec::new(),
-        parents: Vec::new(),
-        levels: Vec::new(),
-        failures: Vec::new(),
-        stop: Stop::Complete,
-        members: OnceLock::new(),
-        backward: OnceLock::new(),
-    }
 }
 
 struct Search<'a> {
