@@ -2,7 +2,6 @@
 //! so that the numbering does not depend on the number of threads.
 
 use std::ops::Range;
-use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
