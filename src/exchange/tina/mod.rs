@@ -19,5 +19,5 @@ mod write;
 #[cfg(test)]
 mod tests;
 
-pub use read::read;
+pub use read::{read, read_safe};
 pub use write::write;

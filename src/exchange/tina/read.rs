@@ -9,7 +9,7 @@ use pest_derive::Parser;
 use super::consume::{self, Declaration, Direction, Name};
 use super::expected;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, file_stem};
+use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, Trouble, file_stem};
 use crate::net::Located;
 use crate::source::{Source, Span};
 
@@ -24,6 +24,18 @@ pub(super) struct TinaParser;
 /// Every line that cannot be read, every node defined twice, and everything a place/transition net does not have: inhibitor
 /// and stopwatch arcs, time, priorities.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
+    load(source).map_err(Trouble::errors)
+}
+
+/// As [`read`], but for a net that can be safe.
+///
+/// # Errors
+/// Weights and several tokens on a place, too.
+pub fn read_safe(source: &Source) -> Result<Located, Vec<Diagnostic>> {
+    load(source).map_err(Trouble::all).and_then(Located::safe)
+}
+
+fn load(source: &Source) -> Result<Located, Trouble> {
     let mut diagnostics = Vec::new();
     let mut assembly = Assembly::default();
     match TinaParser::parse(Rule::file, source.text()) {
@@ -37,12 +49,8 @@ pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
         // The grammar reads any text, so this is a limit of the parser itself.
         Err(error) => diagnostics.push(expected::diagnostic(&error, source.text(), 0)),
     }
-    if diagnostics.is_empty() {
-        let name = assembly.name.map_or_else(|| file_stem(source), |name| name.text);
-        return Ok(assembly.draft.finish(name));
-    }
-    diagnostics.sort_by_key(Diagnostic::span);
-    Err(diagnostics)
+    let name = assembly.name.map(|name| name.text);
+    assembly.draft.finish(|| name.unwrap_or_else(|| file_stem(source)), diagnostics)
 }
 
 /// The net so far, and what its names stand for.

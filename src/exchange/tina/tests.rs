@@ -1,13 +1,13 @@
 //! What is read, and what is said about what cannot be read.
 
-use super::read;
-use crate::net::{Arcs, Located, PlaceId, TransitionId};
+use super::{read, read_safe};
+use crate::net::{Arcs, PlaceId, TransitionId};
 use crate::source::Source;
 
 /// Everything that is wrong with a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.net", text);
-    let errors = read(&source).and_then(Located::safe).expect_err(text);
+    let errors = read_safe(&source).expect_err(text);
     let line = |d: &crate::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
@@ -17,7 +17,7 @@ fn problems(text: &str) -> Vec<String> {
 
 /// The one problem of a text of one line, with what is underlined and the last piece of help.
 fn problem(text: &str) -> [String; 3] {
-    let errors = read(&Source::new("test.net", text)).and_then(Located::safe).expect_err(text);
+    let errors = read_safe(&Source::new("test.net", text)).expect_err(text);
     assert_eq!(errors.len(), 1, "{text}: {errors:?}");
     let [error] = &errors[..] else { panic!("{text}") };
     let help = error.help.last().cloned().unwrap_or_default();
@@ -67,10 +67,13 @@ fn every_bad_line_is_reported_and_the_others_are_still_looked_at() {
         problems(text),
         [
             "2:5 E0401 this net is named a second time",
+            "3:6 E0402 the place `p` has 2 tokens at the beginning",
             "4:1 E0401 expected `net`, `pl` or `tr`, found `foo`",
+            "6:6 E0402 this arc has weight 2",
             "7:7 E0401 expected `->` or a name, found the end of the line",
             "8:4 E0403 the place `q` is defined twice",
             "9:4 E0403 the transition `t` is defined twice",
+            "11:13 E0402 two arcs join `q` and `v` in the same direction",
             "12:1 E0402 priorities between transitions are not part of place/transition nets",
         ]
     );
