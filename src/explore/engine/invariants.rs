@@ -41,7 +41,7 @@ pub(super) fn invariants(initial: &[u64], rules: &[Rule], wanted: Wanted) -> Vec
     }
     let mut tableau = Tableau::new(initial.len(), rules.len(), wanted);
     singles.into_iter().filter(|row| row.is(wanted)).for_each(|row| tableau.add(row));
-    while let Some(&(_, transition)) = tableau.order.first() {
+    while let Some(&(_, _, transition)) = tableau.order.first() {
         tableau.eliminate(transition);
     }
     let done = tableau.rows.into_iter().flatten().filter(|row| row.changes.is_empty());
@@ -62,8 +62,9 @@ struct Tableau {
     beginning: Vec<Vec<u32>>,
     /// How many rows gain and lose tokens by each transition.
     counts: Vec<(u64, u64)>,
-    /// The transitions that rows change, that whose elimination adds the fewest rows first.
-    order: BTreeSet<(i64, u32)>,
+    /// The transitions that rows change, that whose elimination adds the fewest rows first; the others in no particular order,
+    /// since along a path of places one row would become ever longer if it were followed.
+    order: BTreeSet<(i64, u32, u32)>,
 }
 
 impl Tableau {
@@ -100,12 +101,13 @@ impl Tableau {
     fn count(&mut self, row: &Row, sign: i64) {
         let cost = |(gain, lose): (u64, u64)| (gain * lose) as i64 - (gain + lose) as i64;
         for &(transition, change) in &row.changes {
+            let scattered = transition.wrapping_mul(0x9E37_79B9);
             let counts = &mut self.counts[transition as usize];
-            self.order.remove(&(cost(*counts), transition));
+            self.order.remove(&(cost(*counts), scattered, transition));
             let one = if change > 0 { &mut counts.0 } else { &mut counts.1 };
             *one = one.wrapping_add_signed(sign);
             if *counts != (0, 0) {
-                self.order.insert((cost(*counts), transition));
+                self.order.insert((cost(*counts), scattered, transition));
             }
         }
     }

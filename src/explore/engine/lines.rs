@@ -154,8 +154,10 @@ impl<E: Entry, const N: usize> Lines<E, N> {
             let tag = E::pack((rest << DISTANCE | distance as u64) + 1);
             let start = ((home + distance) & ((1 << self.lines) - 1)) * N;
             let line = self.entries[self.first + start..].first_chunk::<N>()?;
-            if let Some(at) = line.iter().position(|&entry| entry == tag) {
-                return Some(start + at);
+            // Looking at all of them takes no branch that a processor would have to guess.
+            let at: u32 = line.iter().zip(1..).map(|(&entry, at)| if entry == tag { at } else { 0 }).sum();
+            if at > 0 {
+                return Some(start + at as usize - 1);
             }
             if line[N - 1] == E::default() {
                 return None;
