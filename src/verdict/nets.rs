@@ -8,7 +8,7 @@ use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
 use super::check::is_existential;
-use crate::explore::engine::{Exploration, Figures, Model, Options, Steps, View, explore};
+use crate::explore::engine::{Exploration, Figures, Model, Options, View, explore};
 use crate::explore::{Graph, Progress, Stop};
 use crate::logic::{Bound, Dag, Labels, Node, NodeId, Quantifier, Valuation, evidence, label_from};
 use crate::net::{Net, PlaceId, Tokens, TransitionId};
@@ -194,15 +194,18 @@ fn replayed(net: &Net, run: &Run) -> Result<Vec<Tokens>, String> {
 struct Paths<'e> {
     net: &'e Net,
     exploration: &'e Exploration,
-    steps: Steps,
     graph: Graph,
+    /// Where the firings of each state begin in `fired`.
+    starts: Vec<u64>,
+    /// The transition of each step, in the order of the graph's rows.
+    fired: Vec<u32>,
 }
 
 impl<'e> Paths<'e> {
     fn of(net: &'e Net, exploration: &'e Exploration) -> Option<Self> {
-        let steps = exploration.steps(true)?;
-        let graph = Graph::of_rows(steps.starts().to_vec(), steps.targets().to_vec());
-        Some(Self { net, exploration, steps, graph })
+        let (starts, targets, fired) = exploration.steps(true)?.into_parts();
+        let graph = Graph::of_rows(starts.clone(), targets);
+        Some(Self { net, exploration, graph, starts, fired })
     }
 
     fn reply(&self, formula: &Bound) -> Reply {
@@ -245,8 +248,8 @@ impl<'e> Paths<'e> {
         let Some(evidence) = evidence(&self.graph, dag, labels, None, node, &[0]) else { return Ok(None) };
         let targets = evidence.states.iter().skip(1).copied().chain(evidence.loop_start.map(|i| evidence.states[i]));
         let firings = evidence.states.iter().zip(targets).map(|(&from, to)| {
-            let position = self.steps.successors(from).iter().position(|&target| target == to);
-            position.map(|position| TransitionId::at(self.steps.fired(from)[position] as usize))
+            let position = self.graph.successors(from).iter().position(|&target| target == to)?;
+            Some(TransitionId::at(self.fired[self.starts[from as usize] as usize + position] as usize))
         });
         let firings: Option<Vec<TransitionId>> = firings.collect();
         let run = Run { firings: firings.ok_or("a step is not there")?, loop_start: evidence.loop_start };

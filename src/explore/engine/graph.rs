@@ -20,16 +20,11 @@ impl Steps {
         self.starts.len() - 1
     }
 
-    /// Where the successors of each state begin in [`Steps::targets`]; last, where they end.
+    /// Where the successors of each state begin, and last where they end; the successors of all states, one state after another;
+    /// and the transitions that lead to them.
     #[must_use]
-    pub fn starts(&self) -> &[u64] {
-        &self.starts
-    }
-
-    /// The successors of all states, one state after another.
-    #[must_use]
-    pub fn targets(&self) -> &[u32] {
-        &self.targets
+    pub fn into_parts(self) -> (Vec<u64>, Vec<u32>, Vec<u32>) {
+        (self.starts, self.targets, self.fired)
     }
 
     /// The successors of a state, one for each transition it enables.
