@@ -4,13 +4,13 @@ mod assumptions;
 mod check;
 mod failing;
 mod hazards;
-mod nets;
+mod net;
 mod remarks;
 mod scan_ends;
 mod views;
 
 pub use check::{Options, check};
-pub use nets::{NetReport, Question, Reply, Run, judge};
+pub use net::{NetReport, Question, Reply, Run, judge};
 pub use remarks::Remark;
 
 use crate::explore::Stop;

@@ -1,0 +1,165 @@
+//! What is looked for in each state while a net is explored.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::replay::{Played, refuted, replayed};
+use super::{Question, Reply, Run};
+use crate::explore::engine::{Exploration, Model, Options, View, explore};
+use crate::explore::{Progress, Stop};
+use crate::logic::{Bound, Quantifier, Valuation};
+use crate::net::{Net, PlaceId, TransitionId};
+use crate::semantics::VarId;
+
+/// What is looked for in each state.
+pub(super) enum Hunt<'q> {
+    /// A state that decides the question.
+    Goal(Goal<'q>),
+    /// The most tokens.
+    Most(Most<'q>),
+    /// Nothing: states alone do not tell.
+    Paths(&'q Bound),
+}
+
+/// A state where the formula is true, for `EF`; or false, for `AG`.
+pub(super) struct Goal<'q> {
+    /// A formula about one state.
+    pub(super) formula: &'q Bound,
+    /// Whether the question is `EF`.
+    pub(super) is_existential: bool,
+    found: OnceLock<Vec<u64>>,
+}
+
+/// The most tokens that places hold together.
+pub(super) struct Most<'q> {
+    places: &'q [PlaceId],
+    tokens: AtomicU64,
+}
+
+/// Explores a net, and looks at each state for every hunt, until nothing more is looked for.
+pub(super) fn search(
+    net: &Net,
+    hunts: &[Hunt<'_>],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Exploration {
+    let may_stop = hunts.iter().all(|hunt| matches!(hunt, Hunt::Goal(_)));
+    let wanted = |view: &View<'_>| {
+        hunts.iter().for_each(|hunt| hunt.look(view));
+        may_stop && hunts.iter().all(Hunt::is_over)
+    };
+    let options = Options { keep: true, ..*options };
+    explore(&Model::from(net), &options, watch, Some(&wanted))
+}
+
+impl<'q> Hunt<'q> {
+    pub(super) fn of(question: &'q Question) -> Self {
+        let formula = match question {
+            Question::Most(places) => return Self::Most(Most { places, tokens: AtomicU64::new(0) }),
+            Question::Holds(formula) => formula,
+        };
+        let goal = |formula, is_existential| Self::Goal(Goal { formula, is_existential, found: OnceLock::new() });
+        match formula {
+            Bound::Until { quantifier: Quantifier::Some, weak: false, hold, release }
+                if **hold == Bound::Truth(true) && release.is_state_formula() =>
+            {
+                goal(release, true)
+            }
+            Bound::Until { quantifier: Quantifier::All, weak: true, hold, release }
+                if **release == Bound::Truth(false) && hold.is_state_formula() =>
+            {
+                goal(hold, false)
+            }
+            _ => Self::Paths(formula),
+        }
+    }
+
+    fn look(&self, view: &View<'_>) {
+        match self {
+            Self::Goal(goal) => goal.look(view),
+            Self::Most(most) => most.look(view),
+            Self::Paths(_) => {}
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        matches!(self, Self::Goal(goal) if goal.found.get().is_some())
+    }
+}
+
+impl Goal<'_> {
+    fn look(&self, view: &View<'_>) {
+        if self.found.get().is_none() && self.formula.holds_in(&Seen(view)) == Some(self.is_existential) {
+            let _ = self.found.set(view.marking());
+        }
+    }
+
+    /// What the exploration says, a state found being shown by a run to it.
+    pub(super) fn reply(&self, net: &Net, exploration: &Exploration) -> Reply {
+        match self.found.get() {
+            Some(marking) => self.shown(net, exploration, marking),
+            None if exploration.stop != Stop::Complete => Reply::Unknown(exploration.stop.to_string()),
+            None if self.is_existential => Reply::Violated(None),
+            None => Reply::Holds(None),
+        }
+    }
+
+    fn shown(&self, net: &Net, exploration: &Exploration, marking: &[u64]) -> Reply {
+        let Some(firings) = exploration.firings(marking) else {
+            return Reply::Unknown(
+                "the way to a marking is lost, which is an error in Petril; please report it".to_owned(),
+            );
+        };
+        let run = Run { firings: firings.into_iter().map(TransitionId::at).collect(), loop_start: None };
+        match replayed(net, &run) {
+            Ok(markings) => {
+                let last = &markings[markings.len() - 1];
+                if self.formula.holds_in(&Played(net, last)) != Some(self.is_existential) {
+                    return refuted("the last marking does not show it");
+                }
+                if self.is_existential { Reply::Holds(Some(run)) } else { Reply::Violated(Some(run)) }
+            }
+            Err(what) => refuted(&what),
+        }
+    }
+}
+
+impl Most<'_> {
+    fn look(&self, view: &View<'_>) {
+        let sum = self.places.iter().map(|place| view.tokens(place.index())).sum();
+        self.tokens.fetch_max(sum, Ordering::Relaxed);
+    }
+
+    /// What the exploration says.
+    pub(super) fn reply(&self, exploration: &Exploration) -> Reply {
+        match exploration.stop {
+            Stop::Complete => Reply::Most(self.tokens.load(Ordering::Relaxed)),
+            _ => Reply::Unknown(exploration.stop.to_string()),
+        }
+    }
+}
+
+/// A state as the search shows it.
+pub(super) struct Seen<'v>(pub(super) &'v View<'v>);
+
+impl Valuation for Seen<'_> {
+    fn value(&self, _: VarId) -> u64 {
+        0
+    }
+
+    fn is_marked(&self, place: PlaceId) -> bool {
+        self.tokens(place) > 0
+    }
+
+    fn tokens(&self, place: PlaceId) -> u64 {
+        self.0.tokens(place.index())
+    }
+
+    fn is_enabled(&self, transition: TransitionId) -> bool {
+        self.0.is_enabled(transition.index())
+    }
+
+    fn is_deadlock(&self) -> bool {
+        self.0.is_deadlock()
+    }
+}
