@@ -1,0 +1,43 @@
+//! What firing changes: the incidence matrix of a net, without its zeros.
+
+use crate::net::{Net, PlaceId, TransitionId};
+use crate::rows::Rows;
+
+/// The incidence matrix, by rows and by columns. Read arcs change nothing, so they are not in it.
+#[derive(Clone, Debug)]
+pub struct Incidence {
+    of_places: Rows<(u32, i128)>,
+    of_transitions: Rows<(u32, i128)>,
+}
+
+impl Incidence {
+    /// The matrix of a net.
+    #[must_use]
+    pub fn of(net: &Net) -> Self {
+        let change = |id: TransitionId| {
+            let lost = net.taken(id).map(|(place, weight)| (place, -i128::from(weight)));
+            let gained = net.put(id).map(|(place, weight)| (place, i128::from(weight)));
+            lost.chain(gained).map(move |(place, change)| (place.index(), id.index(), change))
+        };
+        let entries = net.transition_ids().flat_map(change);
+        let of_places =
+            Rows::group(net.places().len(), entries.clone().map(|(place, id, change)| (place, (id as u32, change))));
+        // From places in ascending order, so that each list is ascending.
+        let by_place = (0..net.places().len())
+            .flat_map(|place| of_places[place].iter().map(move |&(id, change)| (id as usize, (place as u32, change))));
+        let of_transitions = Rows::group(net.transitions().len(), by_place);
+        Self { of_places, of_transitions }
+    }
+
+    /// The transitions that change a place, ascending, with the tokens it gains by each, negative if it loses some.
+    #[must_use]
+    pub fn of_place(&self, place: PlaceId) -> &[(u32, i128)] {
+        &self.of_places[place.index()]
+    }
+
+    /// The places that a transition changes, ascending, with the tokens they gain, negative if they lose some.
+    #[must_use]
+    pub fn of_transition(&self, transition: TransitionId) -> &[(u32, i128)] {
+        &self.of_transitions[transition.index()]
+    }
+}

@@ -1,0 +1,89 @@
+//! A basis of all solutions, for nets where those with minimal support are too many: weights may be negative.
+//!
+//! Columns are eliminated as in Gauss's algorithm, but on whole numbers: of the rows that a column changes the shortest is
+//! subtracted from the others, as often as it takes, and given up. What is left changes no column. As many rows were given
+//! up as the rank of the matrix says.
+
+use std::collections::BTreeSet;
+
+use super::sparse::{gcd, merge};
+
+/// Rows with how often each is taken, or columns with how they change a sum.
+type Vector = Vec<(u32, i128)>;
+
+/// Independent sums of rows that are 0 in all columns; any other is a combination of these, with fractions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    /// The sums: rows, ascending, with weights.
+    pub vectors: Vec<Vector>,
+    /// The rank of the matrix.
+    pub rank: usize,
+}
+
+/// The kernel of a matrix given by rows. Nothing if it takes more than so many elementary steps, or too large numbers.
+pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64) -> Option<Kernel> {
+    let mut rows: Vec<Option<(Vector, Vector)>> =
+        rows.enumerate().map(|(position, changes)| Some((vec![(position as u32, 1)], changes))).collect();
+    let mut changing: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); columns];
+    for (number, (_, changes)) in rows.iter().flatten().enumerate() {
+        changes.iter().for_each(|&(column, _)| _ = changing[column as usize].insert(number as u32));
+    }
+    // The columns that fewest rows change come first; among these in no particular order, as chains would grow long.
+    let key = |changing: &[BTreeSet<u32>], column: u32| {
+        (changing[column as usize].len(), column.wrapping_mul(0x9E37_79B9), column)
+    };
+    let mut order: BTreeSet<(usize, u32, u32)> =
+        (0..columns as u32).map(|column| key(&changing, column)).filter(|&(count, ..)| count > 0).collect();
+    let mut rank = 0;
+    while let Some(&(_, _, column)) = order.first() {
+        let numbers: Vec<u32> = changing[column as usize].iter().copied().collect();
+        let length =
+            |&number: &u32| rows[number as usize].as_ref().map_or(0, |(sum, changes)| sum.len() + changes.len());
+        let shortest = numbers.iter().copied().min_by_key(length)?;
+        let (pivot_sum, pivot) = rows[shortest as usize].take()?;
+        let by = at(&pivot, column);
+        let mut update = |changes: &Vector, number: u32, present: bool| {
+            for &(column, _) in changes {
+                order.remove(&key(&changing, column));
+                let these = &mut changing[column as usize];
+                _ = if present { these.insert(number) } else { these.remove(&number) };
+                if !these.is_empty() {
+                    order.insert(key(&changing, column));
+                }
+            }
+        };
+        update(&pivot, shortest, false);
+        for number in numbers.into_iter().filter(|&number| number != shortest) {
+            let (sum, changes) = rows[number as usize].take()?;
+            let own = at(&changes, column);
+            let length = sum.len() + changes.len() + pivot_sum.len() + pivot.len();
+            steps = steps.checked_sub(length as u64)?;
+            let combine = |x: i128, y: i128| x.checked_mul(by)?.checked_sub(y.checked_mul(own)?);
+            let mut fresh = [(&sum, &pivot_sum), (&changes, &pivot)].map(|(one, other)| merge(one, other, combine));
+            fresh.iter_mut().flatten().for_each(|vector| vector.retain(|&(_, value)| value != 0));
+            let [Some(mut fresh_sum), Some(mut fresh)] = fresh else { return None };
+            reduce(&mut fresh_sum, &mut fresh)?;
+            update(&changes, number, false);
+            update(&fresh, number, true);
+            rows[number as usize] = Some((fresh_sum, fresh));
+        }
+        rank += 1;
+    }
+    Some(Kernel { vectors: rows.into_iter().flatten().map(|(sum, _)| sum).collect(), rank })
+}
+
+fn at(vector: &Vector, column: u32) -> i128 {
+    vector.binary_search_by_key(&column, |&(c, _)| c).map_or(0, |at| vector[at].1)
+}
+
+/// Divides both by what all their numbers have in common. Nothing if a number is too large.
+fn reduce(sum: &mut Vector, changes: &mut Vector) -> Option<()> {
+    let mut common = 0;
+    for &(_, value) in sum.iter().chain(changes.iter()) {
+        common = gcd(common, u64::try_from(value.unsigned_abs()).ok()?);
+    }
+    for (_, value) in sum.iter_mut().chain(changes) {
+        *value /= i128::from(common);
+    }
+    Some(())
+}
