@@ -7,6 +7,7 @@ pub mod assembler;
 pub mod document;
 pub mod naive_ctl;
 pub mod naive_nets;
+pub mod naive_structure;
 pub mod process;
 pub mod random_flat;
 pub mod random_formula;

@@ -1,0 +1,32 @@
+//! How a net hangs together: components of its graph of places and transitions.
+
+use petgraph::algo::{connected_components, kosaraju_scc};
+use petgraph::graph::{DiGraph, NodeIndex};
+
+use super::flow::Flow;
+
+/// How many components a net has. A net without nodes has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Components {
+    /// Parts with no arc between them.
+    pub weakly: usize,
+    /// Largest parts in which arcs lead from each node to each other one.
+    pub strongly: usize,
+}
+
+impl Components {
+    /// The components of a net.
+    #[must_use]
+    pub fn of(flow: &Flow) -> Self {
+        let (places, transitions) = (flow.places(), flow.transitions());
+        let arcs = (0..transitions).map(|id| flow.inputs[id].len() + flow.outputs[id].len()).sum();
+        let mut graph: DiGraph<(), ()> = DiGraph::with_capacity(places + transitions, arcs);
+        (0..places + transitions).for_each(|_| _ = graph.add_node(()));
+        for id in 0..transitions {
+            let node = NodeIndex::new(places + id);
+            flow.inputs[id].iter().for_each(|&place| _ = graph.add_edge(NodeIndex::new(place as usize), node, ()));
+            flow.outputs[id].iter().for_each(|&place| _ = graph.add_edge(node, NodeIndex::new(place as usize), ()));
+        }
+        Self { weakly: connected_components(&graph), strongly: kosaraju_scc(&graph).len() }
+    }
+}

@@ -1,0 +1,60 @@
+//! The flow relation: which places lie before and behind transitions, weights left aside. A place that is read lies on both
+//! sides, as if its tokens were taken and put back.
+
+use crate::net::{Net, PlaceId, TransitionId};
+use crate::rows::Rows;
+
+/// The places before and behind each transition, ascending, and the transitions before and behind each place.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    /// For each transition the places it needs tokens on.
+    pub(super) inputs: Rows<u32>,
+    /// For each transition the places it puts tokens on.
+    pub(super) outputs: Rows<u32>,
+    /// For each place the transitions that put tokens on it.
+    pub(super) producers: Rows<u32>,
+    /// For each place the transitions that need its tokens.
+    pub(super) consumers: Rows<u32>,
+    places: usize,
+    transitions: usize,
+}
+
+impl Flow {
+    /// The flow relation of a net.
+    #[must_use]
+    pub fn of(net: &Net) -> Self {
+        let (places, transitions) = (net.places().len(), net.transitions().len());
+        let pair = |id: TransitionId, place: PlaceId| (id.index(), place.index() as u32);
+        let before = net.transition_ids().flat_map(|id| net.pre(id).map(move |(place, _)| pair(id, place)));
+        let behind = net.transition_ids().flat_map(|id| net.post(id).map(move |(place, _)| pair(id, place)));
+        let turned = |(id, place): (usize, u32)| (place as usize, id as u32);
+        Self {
+            inputs: Rows::group(transitions, before.clone()),
+            outputs: Rows::group(transitions, behind.clone()),
+            producers: Rows::group(places, behind.map(turned)),
+            consumers: Rows::group(places, before.map(turned)),
+            places,
+            transitions,
+        }
+    }
+
+    /// The same with all arcs turned round: siphons become traps.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self {
+            inputs: self.outputs.clone(),
+            outputs: self.inputs.clone(),
+            producers: self.consumers.clone(),
+            consumers: self.producers.clone(),
+            ..*self
+        }
+    }
+
+    pub(super) fn places(&self) -> usize {
+        self.places
+    }
+
+    pub(super) fn transitions(&self) -> usize {
+        self.transitions
+    }
+}

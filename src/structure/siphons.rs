@@ -1,0 +1,272 @@
+//! Minimal siphons and minimal traps.
+//!
+//! A siphon is a set of places such that every transition that puts tokens on one of them needs tokens of one of them: once
+//! empty, it stays empty. A trap is the same with arcs turned round: once marked, it stays marked. Both hold whatever the weights
+//! are.
+//!
+//! The search begins with a place and, as long as some transition can fill the set from outside, takes in one of the
+//! places it needs, trying each in turn with those tried before shut out. So every minimal siphon is met exactly once. What is shut
+//! out spreads: a transition that has lost all its inputs shuts out its outputs.
+
+use fixedbitset::FixedBitSet;
+
+use super::flow::Flow;
+use crate::net::PlaceId;
+
+/// How far the search may go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SiphonLimits {
+    /// Sets found.
+    pub count: usize,
+    /// Elementary steps, some nanoseconds each.
+    pub steps: u64,
+}
+
+impl Default for SiphonLimits {
+    /// What takes about a second at most.
+    fn default() -> Self {
+        Self { count: 1000, steps: 100_000_000 }
+    }
+}
+
+/// The sets found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Siphons {
+    /// Minimal siphons, or traps: places in ascending order. The sets are in the order of their smallest places.
+    pub found: Vec<Vec<PlaceId>>,
+    /// Whether these are all. If not, a limit ended the search.
+    pub all: bool,
+}
+
+/// The minimal siphons of a net.
+#[must_use]
+pub fn minimal_siphons(flow: &Flow, limits: SiphonLimits) -> Siphons {
+    let mut search = Search::new(flow, limits);
+    for place in 0..flow.places() {
+        search.from(place as u32);
+        if search.is_over() {
+            break;
+        }
+    }
+    let all = !search.is_over();
+    search.found.truncate(limits.count);
+    Siphons { found: search.found, all }
+}
+
+/// The minimal traps of a net.
+#[must_use]
+pub fn minimal_traps(flow: &Flow, limits: SiphonLimits) -> Siphons {
+    minimal_siphons(&flow.reversed(), limits)
+}
+
+/// A place, as far as it is known whether it belongs to the set.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Belongs {
+    Open,
+    In,
+    Out,
+}
+
+struct Search<'f> {
+    flow: &'f Flow,
+    limits: SiphonLimits,
+    steps: u64,
+    found: Vec<Vec<PlaceId>>,
+    belongs: Vec<Belongs>,
+    /// For each transition how many of its inputs are not shut out, and how many are taken in.
+    candidates: Vec<u32>,
+    taken: Vec<u32>,
+    /// Places in the order in which they were taken in or shut out.
+    trail: Vec<u32>,
+    /// Those taken in, in this order.
+    members: Vec<u32>,
+    /// Marks of places and counts of transitions, for [`Self::holds_siphon`].
+    left: FixedBitSet,
+    supports: Vec<u32>,
+}
+
+impl<'f> Search<'f> {
+    fn new(flow: &'f Flow, limits: SiphonLimits) -> Self {
+        let mut search = Self {
+            flow,
+            limits,
+            steps: limits.steps,
+            found: Vec::new(),
+            belongs: vec![Belongs::Open; flow.places()],
+            candidates: (0..flow.transitions()).map(|id| flow.inputs[id].len() as u32).collect(),
+            taken: vec![0; flow.transitions()],
+            trail: Vec::new(),
+            members: Vec::new(),
+            left: FixedBitSet::with_capacity(flow.places()),
+            supports: vec![0; flow.transitions()],
+        };
+        // What a transition without inputs fills is in no siphon.
+        for id in (0..flow.transitions()).filter(|&id| flow.inputs[id].is_empty()) {
+            flow.outputs[id].iter().for_each(|&place| _ = search.shut_out(place));
+        }
+        search
+    }
+
+    fn is_over(&self) -> bool {
+        self.steps == 0 || self.found.len() > self.limits.count
+    }
+
+    fn spend(&mut self, steps: usize) {
+        self.steps = self.steps.saturating_sub(steps as u64);
+    }
+
+    /// Finds the minimal siphons with a place and none of those that are shut out; then shuts it out too.
+    fn from(&mut self, place: u32) {
+        if self.belongs[place as usize] != Belongs::Open {
+            return;
+        }
+        let start = self.trail.len();
+        // Places taken in by choice, with the length of the trail before. What follows from shutting them out comes after.
+        let mut choices: Vec<(u32, usize)> = Vec::new();
+        self.take_in(place);
+        while !self.is_over() {
+            if let Some(choice) = self.choice() {
+                choices.push((choice, self.trail.len()));
+                self.take_in(choice);
+                continue;
+            }
+            // Back to the last choice that can be made otherwise.
+            loop {
+                let Some((choice, trail)) = choices.pop() else {
+                    self.undo(start);
+                    self.shut_out(place);
+                    return;
+                };
+                self.undo(trail);
+                if self.shut_out(choice) {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// A place that may be taken in next; nothing if the set is a siphon, which is noted if it is minimal, or can never become a
+    /// minimal one.
+    fn choice(&mut self) -> Option<u32> {
+        let flow = self.flow;
+        let mut scarcest: Option<u32> = None;
+        let mut steps = 0;
+        for &member in &self.members {
+            let producers = &flow.producers[member as usize];
+            steps += producers.len() + 1;
+            for &id in producers.iter().filter(|&&id| self.taken[id as usize] == 0) {
+                if scarcest.is_none_or(|best| self.candidates[id as usize] < self.candidates[best as usize]) {
+                    scarcest = Some(id);
+                }
+            }
+        }
+        self.spend(steps);
+        let Some(transition) = scarcest else {
+            let is_minimal =
+                (0..self.members.len()).all(|without| !self.is_over() && !self.holds_siphon(Some(without)));
+            if is_minimal {
+                let mut places: Vec<PlaceId> = self.members.iter().map(|&place| PlaceId::at(place as usize)).collect();
+                places.sort_unstable();
+                self.found.push(places);
+            }
+            return None;
+        };
+        if self.holds_siphon(None) {
+            return None;
+        }
+        flow.inputs[transition as usize].iter().copied().find(|&place| self.belongs[place as usize] == Belongs::Open)
+    }
+
+    /// Whether the set, perhaps without one of its members, holds a siphon.
+    fn holds_siphon(&mut self, without: Option<usize>) -> bool {
+        let flow = self.flow;
+        let mut steps = 0;
+        for (position, &member) in self.members.iter().enumerate() {
+            let member = member as usize;
+            self.left.set(member, Some(position) != without);
+            flow.producers[member].iter().for_each(|&id| self.supports[id as usize] = self.taken[id as usize]);
+            flow.consumers[member].iter().for_each(|&id| self.supports[id as usize] = self.taken[id as usize]);
+            steps += flow.producers[member].len() + flow.consumers[member].len() + 1;
+        }
+        if let Some(&member) = without.and_then(|position| self.members.get(position)) {
+            flow.consumers[member as usize].iter().for_each(|&id| self.supports[id as usize] -= 1);
+        }
+        let mut unsupported: Vec<u32> = self
+            .members
+            .iter()
+            .flat_map(|&member| &flow.producers[member as usize])
+            .copied()
+            .filter(|&id| self.supports[id as usize] == 0)
+            .collect();
+        while let Some(id) = unsupported.pop() {
+            steps += flow.outputs[id as usize].len();
+            for place in flow.outputs[id as usize].iter().map(|&place| place as usize) {
+                if self.left.contains(place) {
+                    self.left.set(place, false);
+                    for &consumer in &flow.consumers[place] {
+                        self.supports[consumer as usize] -= 1;
+                        if self.supports[consumer as usize] == 0 {
+                            unsupported.push(consumer);
+                        }
+                    }
+                }
+            }
+        }
+        self.spend(steps);
+        let mut holds = false;
+        for &member in &self.members {
+            holds |= self.left.contains(member as usize);
+            self.left.set(member as usize, false);
+        }
+        holds
+    }
+
+    fn take_in(&mut self, place: u32) {
+        self.belongs[place as usize] = Belongs::In;
+        self.trail.push(place);
+        self.members.push(place);
+        self.flow.consumers[place as usize].iter().for_each(|&id| self.taken[id as usize] += 1);
+    }
+
+    /// Shuts out a place, and what can then be filled without any input. False if that is part of the set.
+    fn shut_out(&mut self, place: u32) -> bool {
+        let flow = self.flow;
+        let mut waiting = vec![place];
+        while let Some(place) = waiting.pop() {
+            match self.belongs[place as usize] {
+                Belongs::In => return false,
+                Belongs::Out => continue,
+                Belongs::Open => self.belongs[place as usize] = Belongs::Out,
+            }
+            self.trail.push(place);
+            let consumers = &flow.consumers[place as usize];
+            self.spend(consumers.len() + 1);
+            for id in consumers.iter().map(|&id| id as usize) {
+                self.candidates[id] -= 1;
+                if self.candidates[id] == 0 {
+                    waiting.extend_from_slice(&flow.outputs[id]);
+                }
+            }
+        }
+        true
+    }
+
+    /// Undoes what was decided since the trail had this length.
+    fn undo(&mut self, trail: usize) {
+        for place in self.trail.split_off(trail) {
+            let counts = match self.belongs[place as usize] {
+                Belongs::In => {
+                    self.members.pop();
+                    &mut self.taken
+                }
+                _ => &mut self.candidates,
+            };
+            let is_in = self.belongs[place as usize] == Belongs::In;
+            for &id in &self.flow.consumers[place as usize] {
+                let count = &mut counts[id as usize];
+                *count = if is_in { *count - 1 } else { *count + 1 };
+            }
+            self.belongs[place as usize] = Belongs::Open;
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Linear constraints on markings.
+
+use crate::net::{PlaceId, Tokens};
+
+/// How a sum compares with a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Relation {
+    /// At least the value.
+    AtLeast,
+    /// At most the value.
+    AtMost,
+    /// The value.
+    Equal,
+}
+
+/// A sum of places with coefficients, compared with a value.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Constraint {
+    /// The places with how often the tokens of each count. Places that occur several times add up.
+    pub terms: Vec<(PlaceId, i64)>,
+    /// How the sum compares.
+    pub relation: Relation,
+    /// What it is compared with.
+    pub value: i64,
+}
+
+impl Constraint {
+    /// Whether a marking satisfies it.
+    #[must_use]
+    pub fn is_satisfied(&self, tokens: &Tokens) -> bool {
+        let sum = self
+            .terms
+            .iter()
+            .try_fold(0_i128, |sum, &(place, times)| sum.checked_add(i128::from(times) * i128::from(tokens.on(place))));
+        let value = i128::from(self.value);
+        sum.is_some_and(|sum| match self.relation {
+            Relation::AtLeast => sum >= value,
+            Relation::AtMost => sum <= value,
+            Relation::Equal => sum == value,
+        })
+    }
+}

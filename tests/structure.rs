@@ -1,0 +1,334 @@
+//! What is said of the structure of nets is what their state spaces and naive textbook versions say, for random nets of all kinds.
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod support;
+
+use std::collections::BTreeSet;
+
+use fixedbitset::FixedBitSet;
+use petril::explore::engine::Model;
+use petril::net::{Builder, Net, PlaceId, TransitionId};
+use petril::structure::state_equation::{Constraint, Outcome, Problem, Relation};
+use petril::structure::{
+    Class, Commoner, Components, Flow, Incidence, Limits, SiphonLimits, commoner, largest_siphon, largest_trap,
+    minimal_siphons, minimal_traps, place_basis, place_invariants, starved, transition_basis, transition_invariants,
+};
+use proptest::prelude::*;
+use support::naive_nets::{Marking, Naive, search};
+use support::naive_structure::{Matrix, incidence, minimal, rank, semiflows, siphons, transposed, traps};
+
+/// Enough for any net here.
+const STEPS: u64 = 10_000_000;
+
+/// A net with weights up to `weight`, bounded or not, with read arcs and loops.
+fn net(most_places: usize, most_transitions: usize, weight: u64) -> impl Strategy<Value = Net> {
+    (1..=most_places).prop_flat_map(move |places| {
+        let side = move || prop::collection::vec((0..places, 1..=weight), 0..=2);
+        let transitions = prop::collection::vec((side(), side(), side()), 0..=most_transitions);
+        (prop::collection::vec(0..=weight, places), transitions).prop_map(|(initial, transitions)| {
+            let mut builder = Builder::new("random");
+            for (i, &tokens) in initial.iter().enumerate() {
+                builder.place_with(format!("p{i}"), tokens);
+            }
+            for (i, (take, put, test)) in transitions.iter().enumerate() {
+                let [take, put, test] = [take, put, test]
+                    .map(|list| list.iter().map(|&(place, weight)| (PlaceId::at(place), weight)).collect::<Vec<_>>());
+                // Few transitions read, or hardly any would be enabled.
+                let test = if i % 3 == 0 { test } else { Vec::new() };
+                builder.weighted(format!("t{i}"), &take, &put, &test);
+            }
+            builder.build()
+        })
+    })
+}
+
+/// Some markings that can be reached; all of them if they are few.
+fn reachable(net: &Net) -> (Vec<Marking>, bool) {
+    let model = Model::from(net);
+    for most in [2000, 300, 30] {
+        if let Some(naive) = search(&model, most) {
+            return (naive.markings.into_keys().collect(), true);
+        }
+    }
+    // A walk, where there are too many.
+    let mut tokens = net.initial_tokens();
+    let mut seen = vec![tokens.as_slice().to_vec()];
+    for step in 0..200_usize {
+        let enabled: Vec<_> = net.transition_ids().filter(|&id| net.has_concession(&tokens, id)).collect();
+        let Some(&id) = enabled.get(step * 7919 % enabled.len().max(1)) else { break };
+        net.play(&mut tokens, id).unwrap();
+        seen.push(tokens.as_slice().to_vec());
+    }
+    (seen, false)
+}
+
+fn constraint() -> impl Strategy<Value = (Vec<(usize, i64)>, u8, i64)> {
+    (prop::collection::vec((0..8_usize, -3..=3_i64), 1..=3), 0..3_u8, -2..=6_i64)
+}
+
+fn constraints(net: &Net, raw: &[(Vec<(usize, i64)>, u8, i64)]) -> Vec<Constraint> {
+    let made = raw.iter().map(|(terms, relation, value)| Constraint {
+        terms: terms.iter().map(|&(place, times)| (PlaceId::at(place % net.places().len()), times)).collect(),
+        relation: [Relation::AtLeast, Relation::AtMost, Relation::Equal][usize::from(*relation)],
+        value: *value,
+    });
+    made.collect()
+}
+
+fn satisfies(marking: &Marking, constraint: &Constraint) -> bool {
+    let sum: i64 = constraint.terms.iter().map(|&(place, times)| times * marking[place.index()] as i64).sum();
+    match constraint.relation {
+        Relation::AtLeast => sum >= constraint.value,
+        Relation::AtMost => sum <= constraint.value,
+        Relation::Equal => sum == constraint.value,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn what_is_reachable_is_never_called_unreachable(net in net(6, 7, 3), raw in prop::collection::vec(constraint(), 1..=3)) {
+        let constraints = constraints(&net, &raw);
+        let (markings, _) = reachable(&net);
+        let witness = markings.iter().find(|marking| constraints.iter().all(|one| satisfies(marking, one)));
+        match Problem::new(&net).solve(&constraints, STEPS) {
+            Outcome::Infeasible(certificate) => {
+                prop_assert!(certificate.verify(&net, &constraints));
+                prop_assert_eq!(witness, None);
+            }
+            Outcome::Feasible(firings) => {
+                // The answer solves the equation.
+                let mut marking: Vec<f64> = net.places().map(|place| place.tokens as f64).collect();
+                for (id, times) in net.transition_ids().zip(firings) {
+                    prop_assert!(times >= 0.0);
+                    net.taken(id).for_each(|(place, weight)| marking[place.index()] -= weight as f64 * times);
+                    net.put(id).for_each(|(place, weight)| marking[place.index()] += weight as f64 * times);
+                }
+                prop_assert!(marking.iter().all(|&tokens| tokens > -1e-4));
+                for one in &constraints {
+                    let sum: f64 = one.terms.iter().map(|&(place, times)| times as f64 * marking[place.index()]).sum();
+                    let value = one.value as f64;
+                    let is_satisfied = match one.relation {
+                        Relation::AtLeast => sum > value - 1e-4,
+                        Relation::AtMost => sum < value + 1e-4,
+                        Relation::Equal => (sum - value).abs() < 1e-4,
+                    };
+                    prop_assert!(is_satisfied);
+                }
+            }
+            Outcome::Unknown => prop_assert!(false, "small problems are solved"),
+        }
+    }
+
+    #[test]
+    fn bounds_are_never_below_what_is_reached(net in net(6, 7, 3), places in prop::collection::vec(0..6_usize, 1..=4)) {
+        let places: Vec<PlaceId> = places.into_iter().map(|place| PlaceId::at(place % net.places().len())).collect();
+        let (markings, _) = reachable(&net);
+        let most = markings.iter().map(|marking| places.iter().map(|place| marking[place.index()]).sum::<u64>()).max();
+        let problem = Problem::new(&net);
+        if let Some(bound) = problem.bound(&places, STEPS) {
+            prop_assert!(bound.verify(&net, &places));
+            prop_assert!(Some(bound.most) >= most, "{} < {most:?}", bound.most);
+            // It is the best the state equation gives: more is a contradiction, and so much, as a fraction, is not.
+            let more = |value| [Constraint {
+                terms: places.iter().map(|&place| (place, 1)).collect(),
+                relation: Relation::AtLeast,
+                value,
+            }];
+            let infeasible = |value: u64| matches!(problem.solve(&more(value as i64), STEPS), Outcome::Infeasible(_));
+            prop_assert!(infeasible(bound.most + 1));
+            prop_assert!(bound.most == 0 || !infeasible(bound.most));
+        }
+    }
+}
+
+/// Ordinary nets where transitions that share an input have all inputs in common.
+fn free_choice_net() -> impl Strategy<Value = Net> {
+    let shape = (prop::collection::vec((0..4_usize, 0..=1_u64), 1..=7), 1..=8_usize);
+    shape.prop_flat_map(|(places, transitions)| {
+        let outputs = prop::collection::btree_set(0..places.len(), 0..=2);
+        let transitions = prop::collection::vec((0..4_usize, outputs), transitions);
+        (Just(places), transitions).prop_map(|(places, transitions)| {
+            let mut builder = Builder::new("free choice");
+            for (i, &(_, tokens)) in places.iter().enumerate() {
+                builder.place_with(format!("p{i}"), tokens);
+            }
+            for (i, (cluster, outputs)) in transitions.iter().enumerate() {
+                let list =
+                    |places: &mut dyn Iterator<Item = usize>| places.map(|p| (PlaceId::at(p), 1)).collect::<Vec<_>>();
+                let take = list(&mut (0..places.len()).filter(|&p| places[p].0 == *cluster));
+                builder.weighted(format!("t{i}"), &take, &list(&mut outputs.iter().copied()), &[]);
+            }
+            builder.build()
+        })
+    })
+}
+
+fn bits(places: &[PlaceId]) -> u32 {
+    places.iter().fold(0, |set, place| set | 1 << place.index())
+}
+
+fn set(bits: u32, places: usize) -> FixedBitSet {
+    let mut set = FixedBitSet::with_capacity(places);
+    (0..places).filter(|place| bits >> place & 1 == 1).for_each(|place| set.insert(place));
+    set
+}
+
+/// Whether every transition can fire again, whatever was fired.
+fn is_live(net: &Net, naive: &Naive) -> bool {
+    net.transition_ids().all(|id| {
+        // Markings from which the transition can be fired at last, by going backwards.
+        let mut able: BTreeSet<&Marking> =
+            naive.steps.iter().filter(|(_, fired, _)| *fired == id.index()).map(|(from, ..)| from).collect();
+        loop {
+            let more: Vec<&Marking> = naive
+                .steps
+                .iter()
+                .filter(|(from, _, to)| able.contains(to) && !able.contains(from))
+                .map(|(from, ..)| from)
+                .collect();
+            if more.is_empty() {
+                return able.len() == naive.markings.len();
+            }
+            able.extend(more);
+        }
+    })
+}
+
+fn check_kernel(matrix: &Matrix, kernel: &petril::structure::Kernel) -> Result<(), TestCaseError> {
+    prop_assert_eq!(kernel.rank, rank(matrix.clone()));
+    prop_assert_eq!(kernel.vectors.len(), matrix.len() - kernel.rank);
+    let columns = matrix.first().map_or(0, Vec::len);
+    let dense = |vector: &Vec<(u32, i128)>| {
+        let mut row = vec![0; matrix.len()];
+        vector.iter().for_each(|&(position, weight)| row[position as usize] = weight);
+        row
+    };
+    for vector in &kernel.vectors {
+        for column in 0..columns {
+            prop_assert_eq!(vector.iter().map(|&(row, weight)| weight * matrix[row as usize][column]).sum::<i128>(), 0);
+        }
+    }
+    prop_assert_eq!(rank(kernel.vectors.iter().map(dense).collect()), kernel.vectors.len());
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn invariants_are_those_of_all_supports(net in net(7, 6, 3)) {
+        let matrix = incidence(&net);
+        let turned = transposed(&matrix, net.transitions().len());
+        let known = Incidence::of(&net);
+        let places = place_invariants(&net, &known, Limits::default());
+        prop_assert!(places.all);
+        let found: BTreeSet<Vec<(usize, u64)>> = places.found.iter()
+            .map(|one| one.weights.iter().map(|&(place, weight)| (place.index(), weight)).collect())
+            .collect();
+        prop_assert_eq!(found, semiflows(&matrix));
+        for one in &places.found {
+            prop_assert_eq!(one.tokens, one.weights.iter().map(|&(p, w)| w * net.place(p).tokens).sum::<u64>());
+        }
+        let transitions = transition_invariants(&net, &known, Limits::default());
+        prop_assert!(transitions.all);
+        let found: BTreeSet<Vec<(usize, u64)>> = transitions.found.iter()
+            .map(|one| one.firings.iter().map(|&(id, times)| (id.index(), times)).collect())
+            .collect();
+        prop_assert_eq!(found, semiflows(&turned));
+        check_kernel(&matrix, &place_basis(&net, &known, 1_000_000).unwrap())?;
+        check_kernel(&turned, &transition_basis(&net, &known, 1_000_000).unwrap())?;
+    }
+
+    #[test]
+    fn siphons_and_traps_are_those_of_all_sets(net in net(8, 8, 2), within in any::<u32>()) {
+        let flow = Flow::of(&net);
+        let places = net.places().len();
+        let within = within & ((1 << places) - 1);
+        let union = |sets: &[u32]| sets.iter().filter(|&&set| set & !within == 0).fold(0, |all, set| all | set);
+        for (all, found, largest) in [
+            (siphons(&net), minimal_siphons(&flow, SiphonLimits::default()), largest_siphon(&flow, &set(within, places))),
+            (traps(&net), minimal_traps(&flow, SiphonLimits::default()), largest_trap(&flow, &set(within, places))),
+        ] {
+            prop_assert!(found.all);
+            let sets: Vec<u32> = found.found.iter().map(|places| bits(places)).collect();
+            prop_assert_eq!(sets.iter().copied().collect::<BTreeSet<_>>(), minimal(&all));
+            prop_assert_eq!(sets.len(), minimal(&all).len(), "none is found twice");
+            prop_assert_eq!(largest, set(union(&all), places));
+        }
+    }
+
+    #[test]
+    fn what_siphons_say_of_behaviour_is_true(net in prop_oneof![net(6, 7, 2), free_choice_net()]) {
+        let flow = Flow::of(&net);
+        let class = Class::of(&net, &flow);
+        let property = commoner(&net, &flow, &minimal_siphons(&flow, SiphonLimits::default()));
+        // The property by its definition.
+        let marked = net.place_ids().filter(|&place| net.place(place).is_marked()).collect::<Vec<_>>();
+        let traps = traps(&net);
+        let has_marked_trap =
+            |siphon: u32| traps.iter().any(|trap| trap & !siphon == 0 && trap & bits(&marked) != 0);
+        let has_arcs = |siphon: u32| (0..net.places().len())
+            .any(|place| siphon >> place & 1 == 1 && net.transition_ids().any(|id| net.pre(id).any(|(p, _)| p.index() == place)));
+        let holds = minimal(&siphons(&net)).into_iter().all(|siphon| has_marked_trap(siphon) || !has_arcs(siphon));
+        prop_assert_eq!(property == Commoner::Holds, holds);
+
+        if let Some(naive) = search(&Model::from(&net), 300) {
+            let fired: BTreeSet<usize> = naive.steps.iter().map(|&(_, id, _)| id).collect();
+            for id in starved(&net, &flow) {
+                prop_assert!(!fired.contains(&id.index()));
+            }
+            if property.excludes_deadlock(&class, &flow) {
+                prop_assert_eq!(naive.deadlocks().len(), 0);
+            }
+            if let Some(live) = property.decides_liveness(&class) {
+                prop_assert_eq!(live, is_live(&net, &naive));
+            }
+        }
+    }
+
+    #[test]
+    fn classes_are_those_of_the_definitions(net in prop_oneof![net(5, 5, 1), net(5, 5, 2), free_choice_net()]) {
+        let flow = Flow::of(&net);
+        let class = Class::of(&net, &flow);
+        let weights = net.transition_ids().flat_map(|id| net.pre(id).chain(net.post(id))).map(|(_, weight)| weight);
+        let ordinary = weights.clone().all(|weight| weight == 1);
+        prop_assert_eq!(class.ordinary, ordinary);
+        let consumers = |place: PlaceId| -> Vec<TransitionId> {
+            net.transition_ids().filter(|&id| net.pre(id).any(|(p, _)| p == place)).collect()
+        };
+        let inputs = |id: TransitionId| net.pre(id).map(|(place, _)| place).collect::<Vec<_>>();
+        let free = net.place_ids().all(|place| {
+            consumers(place).len() <= 1 || consumers(place).iter().all(|&id| inputs(id) == [place])
+        });
+        let shares = |p: PlaceId, q: PlaceId| consumers(p).iter().any(|id| consumers(q).contains(id));
+        let extended = net.place_ids()
+            .all(|p| net.place_ids().all(|q| !shares(p, q) || consumers(p) == consumers(q)));
+        prop_assert_eq!(class.free_choice, ordinary && free);
+        prop_assert_eq!(class.extended_free_choice, ordinary && extended);
+        let keeps = net.transition_ids()
+            .all(|id| net.pre(id).map(|(_, w)| w).sum::<u64>() == net.post(id).map(|(_, w)| w).sum::<u64>());
+        prop_assert_eq!(class.keeps_tokens, keeps);
+
+        // Components, by what leads where.
+        let (places, count) = (net.places().len(), net.places().len() + net.transitions().len());
+        let mut leads: Vec<Vec<bool>> = (0..count).map(|a| (0..count).map(|b| a == b).collect()).collect();
+        for id in net.transition_ids() {
+            net.pre(id).for_each(|(place, _)| leads[place.index()][places + id.index()] = true);
+            net.post(id).for_each(|(place, _)| leads[places + id.index()][place.index()] = true);
+        }
+        let both: Vec<Vec<bool>> = (0..count).map(|a| (0..count).map(|b| leads[a][b] || leads[b][a]).collect()).collect();
+        let count_of = |mut leads: Vec<Vec<bool>>| {
+            for c in 0..count {
+                for a in 0..count {
+                    for b in 0..count {
+                        leads[a][b] |= leads[a][c] && leads[c][b];
+                    }
+                }
+            }
+            (0..count).filter(|&a| !(0..a).any(|b| leads[a][b] && leads[b][a])).count()
+        };
+        prop_assert_eq!(Components::of(&flow), Components { weakly: count_of(both), strongly: count_of(leads) });
+    }
+}
