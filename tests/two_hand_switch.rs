@@ -6,7 +6,8 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, behaviour, explore, unsafe_firing};
+use petril::explore::engine::{self, Model, Options};
+use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, explore};
 use petril::semantics::Role;
 use petril::translate::{Part, System};
 use support::reports::{answer, counterexample, moves, report, values, verdicts};
@@ -103,8 +104,9 @@ fn the_net_behaves_as_the_paper_says() {
     let space = MarkingSpace::new(&system.net);
     let graph = explore(&space, Budget::default(), &mut |_| None);
     assert_eq!(graph.len(), 797);
-    assert_eq!(unsafe_firing(&space, &graph), None);
-    let behaviour = behaviour(&space, &graph);
+    assert!(graph.failures().is_empty(), "the net is safe");
+    let options = Options { keep: true, ..Options::default() };
+    let behaviour = engine::explore(&Model::from(&system.net), &options, &mut |_| None, None).behaviour().unwrap();
     assert_eq!(behaviour.deadlocks, 0);
     assert!(behaviour.live_without_dead);
     // Each instruction has a transition for every combination of values, and not every combination comes about.

@@ -114,9 +114,9 @@ pub struct Check {
 /// Limits of an exploration. What is decided within them is printed; the rest is unknown.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Limits {
-    /// Stop after this many states.
-    #[arg(long, value_name = "N", default_value_t = 100_000_000)]
-    pub max_states: u64,
+    /// Stop after this many states [default: 100,000,000, for `net info` 2,000,000].
+    #[arg(long, value_name = "N")]
+    pub max_states: Option<u64>,
     /// Stop when states and steps take this much memory, in MiB.
     #[arg(long, value_name = "MIB", default_value_t = 8192)]
     pub max_memory: u64,
@@ -224,20 +224,35 @@ pub struct Draw {
 /// The verbs on nets.
 #[derive(Debug, Subcommand)]
 pub enum NetVerb {
-    /// Print size and behaviour of a safe net: reachable markings, safe or not, deadlocks, dead transitions, live or not.
+    /// Print the structure of a net (classes, invariants, siphons, traps), and its behaviour if it is small: reachable markings,
+    /// safe or not, deadlocks, dead transitions, live or not.
     Info(NetInfo),
     /// Answer questions about a net: formulas, or the properties of a file of the Model Checking Contest.
     Check(NetCheck),
     /// Count the states of a net, in the lines of the Model Checking Contest.
-    Explore(NetExplore),
+    Explore(OnNet),
+}
+
+/// What every verb on nets takes.
+#[derive(Debug, clap::Args)]
+pub struct OnNet {
+    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Print one JSON document.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub json: bool,
+    /// Limits of the exploration.
+    #[command(flatten)]
+    pub limits: Limits,
 }
 
 /// `petril net check`
 #[derive(Debug, clap::Args)]
 pub struct NetCheck {
-    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
-    #[arg(value_name = "MODEL")]
-    pub model: PathBuf,
+    /// The net, and limits.
+    #[command(flatten)]
+    pub on: OnNet,
     /// Properties in the contest's XML, with the ids of the PNML file. May be given several times.
     #[arg(long, value_name = "XML", required_unless_present = "formula")]
     pub properties: Vec<PathBuf>,
@@ -247,40 +262,26 @@ pub struct NetCheck {
     /// Print the firing sequence that shows an answer, where one can.
     #[arg(long, action = ArgAction::SetTrue)]
     pub trace: bool,
-    /// Print one JSON document.
-    #[arg(long, action = ArgAction::SetTrue)]
-    pub json: bool,
-    /// Limits of the exploration.
-    #[command(flatten)]
-    pub limits: Limits,
-}
-
-/// `petril net explore`
-#[derive(Debug, clap::Args)]
-pub struct NetExplore {
-    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
-    #[arg(value_name = "MODEL")]
-    pub model: PathBuf,
-    /// Print one JSON document.
-    #[arg(long, action = ArgAction::SetTrue)]
-    pub json: bool,
-    /// Limits of the exploration.
-    #[command(flatten)]
-    pub limits: Limits,
 }
 
 /// `petril net info`
 #[derive(Debug, clap::Args)]
 pub struct NetInfo {
-    /// The net (.pnml or .net), with arcs of weight 1 and one token a place at most.
-    #[arg(value_name = "MODEL")]
-    pub model: PathBuf,
-    /// Print one JSON document.
-    #[arg(long, action = ArgAction::SetTrue)]
-    pub json: bool,
-    /// Limits of the exploration.
+    /// The net, and limits.
     #[command(flatten)]
-    pub limits: Limits,
+    pub on: OnNet,
+    /// Print the invariants that were found.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub invariants: bool,
+    /// Print the minimal siphons that were found.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub siphons: bool,
+    /// Print the minimal traps that were found.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub traps: bool,
+    /// Try so many times as hard to find all invariants, siphons and traps. With 1, no part takes much more than a second.
+    #[arg(long, value_name = "TIMES", default_value_t = 1)]
+    pub effort: u32,
 }
 
 /// `petril explain`

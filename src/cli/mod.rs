@@ -14,6 +14,7 @@ mod meaning;
 mod net_check;
 mod net_explore;
 mod net_info;
+mod net_structure;
 mod output;
 mod progress;
 mod report;
@@ -60,8 +61,8 @@ pub fn run() -> ExitCode {
     let console = Console::new(args.colour);
     let wants_json = match &args.verb {
         Verb::Check(arguments) => arguments.json,
-        Verb::Net(NetVerb::Info(arguments)) => arguments.json,
-        Verb::Net(NetVerb::Check(arguments)) => arguments.json,
+        Verb::Net(NetVerb::Info(arguments)) => arguments.on.json,
+        Verb::Net(NetVerb::Check(arguments)) => arguments.on.json,
         Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
         _ => false,
     };

@@ -19,16 +19,16 @@ use super::progress::Watcher;
 use super::{Failure, Outcome, SUCCESS, input};
 
 pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
-    let (located, _) = input::net(&arguments.model, console)?;
+    let (located, _) = input::net(&arguments.on.model, console)?;
     let (names, questions) = questions(arguments, &located, console)?;
     let net = &located.net;
-    let watcher = Watcher::new(&arguments.limits)?;
-    let options = Options { budget: arguments.limits.budget(), threads: threads(&arguments.limits), keep: true };
+    let watcher = Watcher::new(&arguments.on.limits)?;
+    let options = Options { budget: arguments.on.limits.budget(), threads: threads(&arguments.on.limits), keep: true };
     let report = judge(net, &questions, &options, &mut |progress| watcher.watch(progress));
     watcher.finish();
     let answers: Vec<Answer<'_>> =
         names.iter().zip(&report.replies).map(|(name, reply)| Answer { name, reply, net }).collect();
-    if arguments.json {
+    if arguments.on.json {
         console.print_json(json!({
             "net": net.name(),
             "states": report.figures.states,

@@ -7,12 +7,12 @@ use petril::explore::Stop;
 use petril::explore::engine::{Figures, Model, Options, explore};
 use serde_json::json;
 
-use super::args::{Limits, NetExplore};
+use super::args::{Limits, OnNet};
 use super::console::Console;
 use super::progress::Watcher;
 use super::{Outcome, SUCCESS, input};
 
-pub fn run(arguments: &NetExplore, console: &Console) -> Outcome {
+pub fn run(arguments: &OnNet, console: &Console) -> Outcome {
     let (located, _) = input::net(&arguments.model, console)?;
     let net = located.net;
     let watcher = Watcher::new(&arguments.limits)?;

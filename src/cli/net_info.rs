@@ -1,13 +1,17 @@
-//! `petril net info`: size and behaviour of any safe net.
+//! `petril net info`: size and structure of any net, and its behaviour if that can be explored.
 
 use std::process::ExitCode;
 
-use petril::explore::{MarkingSpace, Stop, behaviour, explore, unsafe_firing};
-use petril::witness::firing_trace;
-use serde_json::json;
+use petril::explore::Stop;
+use petril::explore::engine::{Exploration, Model, Options, explore};
+use petril::net::{Net, PlaceId, TransitionId};
+use petril::structure::Summary;
+use serde_json::{Value, json};
 
 use super::args::NetInfo;
 use super::console::Console;
+use super::net_explore::threads;
+use super::net_structure::Structure;
 use super::progress::Watcher;
 use super::report::counted;
 use super::{Outcome, SUCCESS, input};
@@ -15,14 +19,62 @@ use super::{Outcome, SUCCESS, input};
 /// Dead transitions named in the text, at most.
 const NAMED: usize = 20;
 
+/// States explored if nothing else is said. `petril net explore` is for more.
+const STATES: u64 = 2_000_000;
+
 pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
-    let (located, _) = input::safe_net(&arguments.model, console)?;
+    let on = &arguments.on;
+    let (located, _) = input::net(&on.model, console)?;
     let net = located.net;
-    let watcher = Watcher::new(&arguments.limits)?;
-    let space = MarkingSpace::new(&net);
-    let graph = explore(&space, arguments.limits.budget(), &mut |progress| watcher.watch(progress));
+    let watcher = Watcher::new(&on.limits)?;
+    let summary = Summary::of(&net, arguments.effort);
+    let structure = Structure { net: &net, summary: &summary, arguments };
+    let options = Options { budget: on.limits.budget_of(STATES), threads: threads(&on.limits), keep: true };
+    let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);
+    let second = second_token(&net, &exploration);
+    let (behaviour, mut facts) = behaviour(&net, &exploration);
     watcher.finish();
-    let size = format!(
+    if on.json {
+        let mut document = json!({
+            "net": net.name(),
+            "places": net.places().len(),
+            "transitions": net.transitions().len(),
+            "arcs": net.arc_count(),
+            "read_arcs": net.read_arc_count(),
+            "structure": structure.json(),
+            "complete": exploration.stop == Stop::Complete,
+            "stop": exploration.stop.to_string(),
+            "safe": match &second {
+                Some(_) => json!(false),
+                None if exploration.stop == Stop::Complete => json!(true),
+                None => Value::Null,
+            },
+        });
+        if let Some(second) = &second {
+            document["second_token"] = json!({ "place": second.place, "firings": second.firings });
+        }
+        if let (Some(document), Some(facts)) = (document.as_object_mut(), facts.as_object_mut()) {
+            document.append(facts);
+        }
+        console.print_json(document)?;
+    } else {
+        let safe = match &second {
+            Some(second) if second.firings.is_empty() => {
+                format!("no: `{}` has several tokens from the beginning", second.place)
+            }
+            Some(second) => format!("no: `{}` gets a second token by {}", second.place, second.firings.join(", ")),
+            None if exploration.stop == Stop::Complete => "yes".to_owned(),
+            None => "as far as seen".to_owned(),
+        };
+        let (markings, rest) = behaviour;
+        let text = format!("{}{}{markings}safe         {safe}\n{rest}", size(&net), structure.text());
+        console.print(&(text + &structure.lists()))?;
+    }
+    Ok(if exploration.stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
+}
+
+fn size(net: &Net) -> String {
+    format!(
         "net          {}\nplaces       {}\ntransitions  {}\narcs         {}{}\n",
         net.name(),
         net.places().len(),
@@ -32,63 +84,70 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
             0 => String::new(),
             n => format!(", of these {} counted as two", counted(n, "read arc")),
         }
-    );
-    let mut document = json!({
-        "net": net.name(),
-        "places": net.places().len(),
-        "transitions": net.transitions().len(),
-        "arcs": net.arc_count(),
-        "read_arcs": net.read_arc_count(),
-        "complete": graph.is_complete(),
-        "stop": graph.stop().to_string(),
+    )
+}
+
+/// Why a net is not safe.
+struct SecondToken<'n> {
+    place: &'n str,
+    /// The shortest way there.
+    firings: Vec<&'n str>,
+}
+
+/// A nearest marking with several tokens on a place.
+fn second_token<'n>(net: &'n Net, exploration: &Exploration) -> Option<SecondToken<'n>> {
+    if exploration.figures.max_tokens_in_place <= 1 {
+        return None;
+    }
+    let mut nearest: Option<(usize, Vec<u64>)> = None;
+    exploration.for_each_state(|_, view| {
+        if nearest.is_none() {
+            let full = (0..net.places().len()).find(|&place| view.tokens(place) > 1);
+            nearest = full.map(|place| (place, view.marking()));
+        }
     });
-    let (text, code) = if let Some((state, transition, place)) = unsafe_firing(&space, &graph) {
-        let states: Vec<&[u64]> = graph.path_to(state).iter().map(|&id| graph.state(id)).collect();
-        let mut run = firing_trace(&space, &states, None).firings;
-        run.push(transition);
-        let run: Vec<&str> = run.iter().map(|&id| net.transition(id).name).collect();
-        let place = net.place(place).name;
-        document["safe"] = json!(false);
-        document["second_token"] = json!({ "place": place, "firings": run });
-        let text = format!("safe         no: `{place}` gets a second token by {}\n", run.join(", "));
-        (text + "markings     not counted, since the net is not safe\n", SUCCESS)
-    } else if *graph.stop() == Stop::Complete {
-        let behaviour = behaviour(&space, &graph);
-        let dead: Vec<&str> = behaviour.dead.iter().map(|&id| net.transition(id).name).collect();
-        document["safe"] = json!(true);
-        document["markings"] = json!(graph.len());
-        document["firings"] = json!(graph.steps());
-        document["deadlocks"] = json!(behaviour.deadlocks);
-        document["dead_transitions"] = json!(dead);
-        document["live_without_dead"] = json!(behaviour.live_without_dead);
-        let yes = |fact: bool| if fact { "yes" } else { "no" };
-        let text = format!(
-            "markings     {} reachable, {} between them\nsafe         yes\ndeadlocks    {}\n\
-             dead         {}{}\nlive         {}{}\n",
-            graph.len(),
-            counted(graph.steps() as usize, "firing"),
-            behaviour.deadlocks,
-            counted(dead.len(), "transition"),
-            named(&dead),
-            yes(behaviour.live_without_dead),
-            if dead.is_empty() { "" } else { " without the dead transitions" },
-        );
-        (text, SUCCESS)
-    } else {
-        document["safe"] = serde_json::Value::Null;
-        let text = format!("markings     at least {}: {}\nsafe         as far as seen\n", graph.len(), graph.stop());
-        (text, ExitCode::from(3))
+    let (place, marking) = nearest?;
+    let firings = exploration.firings(&marking)?;
+    let firings = firings.into_iter().map(|id| net.transition(TransitionId::at(id)).name).collect();
+    Some(SecondToken { place: net.place(PlaceId::at(place)).name, firings })
+}
+
+/// What was explored: the line about markings and the lines behind that about safeness, and the same as data.
+fn behaviour(net: &Net, exploration: &Exploration) -> ((String, String), Value) {
+    let figures = &exploration.figures;
+    if exploration.stop != Stop::Complete {
+        let markings = format!("markings     at least {}: {}\n", figures.states, exploration.stop);
+        return ((markings, String::new()), json!({}));
+    }
+    let mut facts = json!({
+        "markings": figures.states,
+        "firings": figures.transitions,
+        "max_tokens_in_place": figures.max_tokens_in_place,
+        "max_tokens_in_marking": figures.max_tokens_in_marking,
+        "deadlocks": figures.deadlocks,
+    });
+    let between = counted(figures.transitions as usize, "firing");
+    let markings = format!("markings     {} reachable, {between} between them\n", figures.states);
+    let mut rest = format!(
+        "tokens       {} in a place at most, {} in a marking\ndeadlocks    {}\n",
+        figures.max_tokens_in_place, figures.max_tokens_in_marking, figures.deadlocks,
+    );
+    let dead: Vec<&str> = figures.never_enabled.iter().map(|&id| net.transition(TransitionId::at(id)).name).collect();
+    rest += &format!("dead         {}{}\n", counted(dead.len(), "transition"), named(&dead));
+    facts["dead_transitions"] = json!(dead);
+    rest += &match exploration.behaviour() {
+        Some(behaviour) => {
+            facts["live_without_dead"] = json!(behaviour.live_without_dead);
+            let without = if dead.is_empty() { "" } else { " without the dead transitions" };
+            format!("live         {}{without}\n", if behaviour.live_without_dead { "yes" } else { "no" })
+        }
+        None => "live         not computed: there are too many markings\n".to_owned(),
     };
-    if arguments.json {
-        console.print_json(document)?
-    } else {
-        console.print(&(size + &text))?
-    };
-    Ok(code)
+    ((markings, rest), facts)
 }
 
 /// The names of transitions, the first of them.
-fn named(names: &[&str]) -> String {
+pub fn named(names: &[&str]) -> String {
     match names.len() {
         0 => String::new(),
         n if n > NAMED => format!(": {}, … (--json names all)", names[..NAMED].join(", ")),

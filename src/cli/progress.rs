@@ -74,6 +74,11 @@ impl Watcher {
 impl Limits {
     /// The limits the search itself keeps.
     pub fn budget(&self) -> Budget {
-        Budget { states: self.max_states, bytes: self.max_memory.saturating_mul(1 << 20) }
+        self.budget_of(Budget::default().states)
+    }
+
+    /// The same where so many states are enough if nothing else is said.
+    pub fn budget_of(&self, states: u64) -> Budget {
+        Budget { states: self.max_states.unwrap_or(states), bytes: self.max_memory.saturating_mul(1 << 20) }
     }
 }

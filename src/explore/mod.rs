@@ -3,7 +3,6 @@
 //! Two spaces are made from a system: [`MarkingSpace`], where every firing is a step (the transition view), and
 //! [`ScanSpace`], where a step is one scan (the scan view). The search knows nothing of either.
 
-mod behaviour;
 mod budget;
 mod components;
 mod coverage;
@@ -18,7 +17,6 @@ mod space;
 mod store;
 mod tarjan;
 
-pub use behaviour::{Behaviour, behaviour, unsafe_firing};
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
 pub use coverage::never_executed;

@@ -14,6 +14,7 @@ mod simplex;
 mod siphons;
 mod sparse;
 pub mod state_equation;
+mod summary;
 
 pub use class::Class;
 pub use commoner::{Commoner, commoner, starved};
@@ -28,3 +29,4 @@ pub use kernel::Kernel;
 pub use largest::{largest_siphon, largest_trap};
 pub use semiflows::Limits;
 pub use siphons::{SiphonLimits, Siphons, minimal_siphons, minimal_traps};
+pub use summary::Summary;

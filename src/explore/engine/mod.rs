@@ -6,6 +6,7 @@
 //! it does not say (`lines`, `keys`), those of more than 64 bits after being folded (`fold`).
 
 mod allowed;
+mod behaviour;
 mod candidates;
 mod conditions;
 mod cover;
@@ -29,6 +30,7 @@ mod tally;
 mod trace;
 mod view;
 
+pub use behaviour::Behaviour;
 pub use exploration::{Exploration, Figures};
 pub use graph::Steps;
 pub use model::{Arcs, Model};
