@@ -7,5 +7,6 @@ fn sessions_go_as_shown() {
         .case("tests/cli/*.md")
         .case("docs/requirements.md")
         .case("docs/examples.md")
+        .case("docs/nets.md")
         .env("RUST_BACKTRACE", "0");
 }

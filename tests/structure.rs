@@ -8,10 +8,11 @@ use std::collections::BTreeSet;
 use fixedbitset::FixedBitSet;
 use petril::explore::engine::Model;
 use petril::net::{Builder, Net, PlaceId, TransitionId};
-use petril::structure::state_equation::{Constraint, Outcome, Problem, Relation};
+use petril::structure::state_equation::{Bound, Certificate, Constraint, Outcome, Problem, Relation};
 use petril::structure::{
-    Class, Commoner, Components, Flow, Incidence, Limits, SiphonLimits, commoner, largest_siphon, largest_trap,
-    minimal_siphons, minimal_traps, place_basis, place_invariants, starved, transition_basis, transition_invariants,
+    Class, Commoner, Components, Flow, Incidence, Limits, SiphonLimits, Summary, commoner, largest_siphon,
+    largest_trap, minimal_siphons, minimal_traps, place_basis, place_invariants, starved, transition_basis,
+    transition_invariants,
 };
 use proptest::prelude::*;
 use support::naive_nets::{Marking, Naive, search};
@@ -331,4 +332,213 @@ proptest! {
         };
         prop_assert_eq!(Components::of(&flow), Components { weakly: count_of(both), strongly: count_of(leads) });
     }
+}
+
+/// Places with weights.
+type Side<'a> = &'a [(&'a str, u64)];
+
+/// A net from a list of places with tokens, and of transitions with what they take and put.
+fn made(places: Side<'_>, transitions: &[(&str, Side<'_>, Side<'_>)]) -> Net {
+    let mut builder = Builder::new("made");
+    places.iter().for_each(|&(name, tokens)| _ = builder.place_with(name, tokens));
+    let id = |name: &str| PlaceId::at(places.iter().position(|&(place, _)| place == name).unwrap());
+    for (name, take, put) in transitions {
+        let [take, put] = [take, put].map(|list| list.iter().map(|&(p, weight)| (id(p), weight)).collect::<Vec<_>>());
+        builder.weighted(name, &take, &put, &[]);
+    }
+    builder.build()
+}
+
+fn named(net: &Net, sets: &[Vec<PlaceId>]) -> Vec<String> {
+    sets.iter().map(|set| set.iter().map(|&p| net.place(p).name).collect::<Vec<_>>().join(" ")).collect()
+}
+
+/// Place invariants as texts like `a 2b = 3`.
+fn invariants(net: &Net, summary: &Summary) -> Vec<String> {
+    let text = |one: &petril::structure::PlaceInvariant| {
+        let term = |&(place, weight): &(PlaceId, u64)| {
+            let name = net.place(place).name;
+            if weight == 1 { name.to_owned() } else { format!("{weight}{name}") }
+        };
+        format!("{} = {}", one.weights.iter().map(term).collect::<Vec<_>>().join(" "), one.tokens)
+    };
+    let mut texts: Vec<String> = summary.place_invariants.found.iter().map(text).collect();
+    texts.sort();
+    texts
+}
+
+/// Two processes and a lock.
+#[test]
+fn mutual_exclusion() {
+    let net = made(
+        &[("lock", 1), ("idle1", 1), ("busy1", 0), ("idle2", 1), ("busy2", 0)],
+        &[
+            ("enter1", &[("lock", 1), ("idle1", 1)], &[("busy1", 1)]),
+            ("leave1", &[("busy1", 1)], &[("lock", 1), ("idle1", 1)]),
+            ("enter2", &[("lock", 1), ("idle2", 1)], &[("busy2", 1)]),
+            ("leave2", &[("busy2", 1)], &[("lock", 1), ("idle2", 1)]),
+        ],
+    );
+    let summary = Summary::of(&net, 1);
+    assert_eq!(invariants(&net, &summary), ["idle1 busy1 = 1", "idle2 busy2 = 1", "lock busy1 busy2 = 1"]);
+    assert_eq!(summary.transition_invariants.found.len(), 2);
+    assert_eq!(
+        (summary.rank, summary.is_conservative(), summary.is_consistent(&net)),
+        (Some(2), Some(true), Some(true))
+    );
+    assert_eq!(summary.most_in_place(), Some(1));
+    assert_eq!(named(&net, &summary.siphons.found), ["lock busy1 busy2", "idle1 busy1", "idle2 busy2"]);
+    assert_eq!(summary.siphons, summary.traps);
+    let class = summary.class;
+    assert!(class.ordinary && class.pure && !class.extended_free_choice && !class.marked_graph && !class.keeps_tokens);
+    assert!(summary.excludes_deadlock);
+    assert_eq!(summary.is_live, None, "the net is no free choice net");
+    assert_eq!(summary.components, Components { weakly: 1, strongly: 1 });
+
+    let flow = Flow::of(&net);
+    let one = minimal_siphons(&flow, SiphonLimits { count: 1, ..SiphonLimits::default() });
+    assert_eq!(commoner(&net, &flow, &one), Commoner::Unknown);
+
+    // Both at once contradicts the invariant of the lock.
+    let [busy1, busy2] = ["busy1", "busy2"].map(|name| net.find_place(name).unwrap());
+    let both =
+        [busy1, busy2].map(|place| Constraint { terms: vec![(place, 1)], relation: Relation::AtLeast, value: 1 });
+    let problem = Problem::new(&net);
+    let Outcome::Infeasible(certificate) = problem.solve(&both, STEPS) else { panic!("they exclude each other") };
+    assert!(certificate.verify(&net, &both));
+    assert!(!certificate.verify(&net, &both[..1]), "one alone is possible");
+    assert_eq!(problem.bound(&[busy1, busy2], STEPS).unwrap().most, 1);
+    // Two idle and one lock, or one idle and one busy.
+    assert_eq!(summary.bound.unwrap().most, 3);
+}
+
+/// Each of three takes the left fork, then the right one.
+#[test]
+fn philosophers_may_starve() {
+    let net = made(
+        &[("f0", 1), ("f1", 1), ("f2", 1), ("h0", 0), ("h1", 0), ("h2", 0), ("e0", 0), ("e1", 0), ("e2", 0)],
+        &[
+            ("left0", &[("f0", 1)], &[("h0", 1)]),
+            ("left1", &[("f1", 1)], &[("h1", 1)]),
+            ("left2", &[("f2", 1)], &[("h2", 1)]),
+            ("right0", &[("h0", 1), ("f1", 1)], &[("e0", 1)]),
+            ("right1", &[("h1", 1), ("f2", 1)], &[("e1", 1)]),
+            ("right2", &[("h2", 1), ("f0", 1)], &[("e2", 1)]),
+            ("done0", &[("e0", 1)], &[("f0", 1), ("f1", 1)]),
+            ("done1", &[("e1", 1)], &[("f1", 1), ("f2", 1)]),
+            ("done2", &[("e2", 1)], &[("f2", 1), ("f0", 1)]),
+        ],
+    );
+    let summary = Summary::of(&net, 1);
+    assert_eq!(invariants(&net, &summary), ["f0 h0 e0 e2 = 1", "f1 h1 e0 e1 = 1", "f2 h2 e1 e2 = 1"]);
+    // All forks and all who eat: empty when each holds one fork.
+    let Commoner::Fails(siphon) = &summary.commoner else { panic!("there is a deadlock") };
+    assert_eq!(named(&net, &[siphon.clone()]), ["f0 f1 f2 e0 e1 e2"]);
+    assert!(!summary.excludes_deadlock && summary.is_live.is_none());
+}
+
+/// Pieces come in twos and are taken in threes; a truck waits for six.
+#[test]
+fn weights_count() {
+    let net = made(
+        &[("free", 6), ("full", 0), ("truck", 1), ("loaded", 0)],
+        &[
+            ("make", &[("free", 2)], &[("full", 2)]),
+            ("load", &[("full", 3), ("truck", 1)], &[("loaded", 3)]),
+            ("drive", &[("loaded", 3)], &[("free", 3), ("truck", 1)]),
+        ],
+    );
+    let summary = Summary::of(&net, 1);
+    assert_eq!(invariants(&net, &summary), ["3truck loaded = 3", "free full loaded = 6"]);
+    let firings: Vec<u64> = summary.transition_invariants.found[0].firings.iter().map(|&(_, times)| times).collect();
+    assert_eq!(firings, [3, 2, 2]);
+    assert!(!summary.class.ordinary && !summary.class.free_choice && !summary.class.single_inputs);
+    assert!(!summary.excludes_deadlock && summary.is_live.is_none(), "inputs of several tokens");
+    assert_eq!(summary.place_bounds, [Some(6), Some(6), Some(1), Some(3)]);
+    assert_eq!(summary.bound.unwrap().most, 7);
+}
+
+/// A free choice net that a wrong choice blocks: both branches are waited for.
+#[test]
+fn commoner_decides_free_choice_nets() {
+    let choice = |wait: Side<'_>, transitions: usize| {
+        let all: [(&str, Side<'_>, Side<'_>); 4] = [
+            ("left", &[("start", 1)], &[("a", 1)]),
+            ("right", &[("start", 1)], &[("b", 1)]),
+            ("join", wait, &[("start", 1)]),
+            ("again", &[("b", 1)], &[("start", 1)]),
+        ];
+        made(&[("start", 1), ("a", 0), ("b", 0)], &all[..transitions])
+    };
+    let summary = Summary::of(&choice(&[("a", 1), ("b", 1)], 3), 1);
+    assert_eq!((summary.class.free_choice, summary.is_live), (true, Some(false)));
+    let summary = Summary::of(&choice(&[("a", 1)], 4), 1);
+    assert_eq!((summary.class.state_machine, summary.is_live, summary.excludes_deadlock), (true, Some(true), true));
+}
+
+/// Where weights of inputs are more than 1, marked traps do not help.
+#[test]
+fn a_marked_trap_of_too_few_tokens_is_a_deadlock() {
+    let net = made(&[("p", 1)], &[("t", &[("p", 2)], &[("p", 2)])]);
+    let summary = Summary::of(&net, 1);
+    assert_eq!((summary.commoner, summary.excludes_deadlock), (Commoner::Holds, false));
+    assert_eq!(search(&Model::from(&net), 10).unwrap().deadlocks().len(), 1);
+}
+
+#[test]
+fn limits_end_searches_and_are_told() {
+    // Of n pairs one each: 2^n siphons.
+    let mut builder = Builder::new("pairs");
+    let pairs: Vec<[PlaceId; 2]> =
+        (0..20).map(|i| [0, 1].map(|side| builder.place_with(format!("p{i}{side}"), 1))).collect();
+    for i in 0..20 {
+        for to in pairs[i] {
+            let take: Vec<_> = pairs[(i + 19) % 20].iter().map(|&place| (place, 1)).collect();
+            builder.weighted(format!("t{i}{}", to.index()), &take, &[(to, 1)], &[]);
+        }
+    }
+    let net = builder.build();
+    let flow = Flow::of(&net);
+    let few = minimal_siphons(&flow, SiphonLimits { count: 10, steps: 1_000_000 });
+    assert_eq!((few.found.len(), few.all), (10, false));
+    assert!(!minimal_siphons(&flow, SiphonLimits { count: usize::MAX, steps: 100 }).all);
+    assert!(matches!(commoner(&net, &flow, &few), Commoner::Fails(_)), "one is enough for that");
+    let incidence = Incidence::of(&net);
+    assert!(!place_invariants(&net, &incidence, Limits { rows_each: 0, rows: 3, work: 1000 }).all);
+    assert_eq!(place_basis(&net, &incidence, 10), None);
+    let problem = Problem::new(&net);
+    let place = Constraint { terms: vec![(pairs[0][0], 1)], relation: Relation::AtLeast, value: 100 };
+    assert_eq!(problem.solve(std::slice::from_ref(&place), 10), Outcome::Unknown);
+    assert_eq!(problem.bound(&pairs[0], 10), None);
+}
+
+/// Nothing that is not a proof passes for one.
+#[test]
+fn certificates_that_are_tampered_with_fail() {
+    let net = made(&[("a", 2), ("b", 0)], &[("t", &[("a", 1)], &[("b", 1)])]);
+    let [a, b] = ["a", "b"].map(|name| net.find_place(name).unwrap());
+    let much = [Constraint { terms: vec![(b, 1)], relation: Relation::AtLeast, value: 3 }];
+    let right = Certificate { constraints: vec![1], places: vec![(a, 1)] };
+    assert!(right.verify(&net, &much));
+    let wrong = [
+        // The firing increases b alone.
+        Certificate { constraints: vec![1], places: vec![] },
+        // Initially the sum is 4.
+        Certificate { constraints: vec![1], places: vec![(a, 2)] },
+        Certificate { constraints: vec![-1], places: vec![(a, 1)] },
+        Certificate { constraints: vec![1], places: vec![(a, 1), (b, -1)] },
+        Certificate { constraints: vec![], places: vec![(a, 1)] },
+        Certificate { constraints: vec![i128::MAX], places: vec![(a, i128::MAX)] },
+        Certificate { constraints: vec![1], places: vec![(PlaceId::at(7), 1)] },
+    ];
+    for certificate in wrong {
+        assert!(!certificate.verify(&net, &much), "{certificate:?}");
+    }
+    let two = [Constraint { value: 2, ..much[0].clone() }];
+    assert!(!right.verify(&net, &two), "two are possible");
+    let bound = Problem::new(&net).bound(&[b], STEPS).unwrap();
+    assert_eq!(bound.most, 2);
+    assert!(!Bound { most: 1, ..bound.clone() }.verify(&net, &[b]));
+    assert!(!bound.verify(&net, &[b, b]));
+    assert!(!Bound { unit: 0, ..bound }.verify(&net, &[b]));
 }
