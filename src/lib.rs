@@ -47,6 +47,7 @@ pub mod net;
 mod rows;
 pub mod semantics;
 pub mod source;
+pub mod structure;
 pub mod syntax;
 pub mod translate;
 pub mod verdict;
