@@ -13,6 +13,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use proptest::sample::subsequence;
+use support::refined_net::refined_net;
 use support::random_net::{any_net, safe_net, weighted_net};
 
 /// Markings a random net may have.
@@ -151,7 +152,9 @@ fn kept(net: impl Strategy<Value = Net>) -> impl Strategy<Value = (Net, Keep)> {
         let transitions: Vec<TransitionId> = net.transition_ids().collect();
         let (most, few) = (places.len().min(3), transitions.len().min(1));
         let kinds = proptest::sample::select(vec![Property::Reachability, Property::Deadlock, Property::Paths]);
-        let keep = (kinds, subsequence(places, 0..=most), subsequence(transitions, 0..=few));
+        let places = prop_oneof![subsequence(places.clone(), 0..=most), subsequence(places, 1)];
+        let transitions = prop_oneof![2 => Just(Vec::new()), 1 => subsequence(transitions, few)];
+        let keep = (kinds, places, transitions);
         keep.prop_map(move |(property, places, transitions)| (net.clone(), Keep { property, places, transitions }))
     })
 }
@@ -162,7 +165,7 @@ fn the_random_nets_have_what_each_rule_needs() {
     let mut runner = TestRunner::deterministic();
     let mut applied: BTreeMap<Rule, usize> = BTreeMap::new();
     for _ in 0..1000 {
-        let (net, keep) = kept(weighted_net()).new_tree(&mut runner).unwrap().current();
+        let (net, keep) = kept(refined_net()).new_tree(&mut runner).unwrap().current();
         for (rule, times) in reduce(&net, &keep).applied {
             *applied.entry(rule).or_default() += times;
         }
@@ -176,6 +179,11 @@ proptest! {
 
     #[test]
     fn nets_with_weights((net, keep) in kept(weighted_net()), rules in rules()) {
+        check(&net, &keep, &rules)?;
+    }
+
+    #[test]
+    fn refined_nets((net, keep) in kept(refined_net()), rules in rules()) {
         check(&net, &keep, &rules)?;
     }
 
