@@ -10,11 +10,11 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use petril::net::{Net, PlaceId, Tokens, TransitionId};
 use petril::structure::reduce::{Keep, Options, Property, Reduced, Rule, reduce, reduce_with};
 use proptest::prelude::*;
+use proptest::sample::subsequence;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use proptest::sample::subsequence;
-use support::refined_net::refined_net;
 use support::random_net::{any_net, safe_net, weighted_net};
+use support::refined_net::refined_net;
 
 /// Markings a random net may have.
 const MOST: usize = 600;
@@ -170,7 +170,8 @@ fn the_random_nets_have_what_each_rule_needs() {
             *applied.entry(rule).or_default() += times;
         }
     }
-    let rare: Vec<Rule> = Rule::ALL.into_iter().filter(|rule| applied.get(rule).is_none_or(|&times| times < 10)).collect();
+    let rare: Vec<Rule> =
+        Rule::ALL.into_iter().filter(|rule| applied.get(rule).is_none_or(|&times| times < 10)).collect();
     assert!(rare.is_empty(), "{applied:?}");
 }
 

@@ -14,6 +14,7 @@ mod meaning;
 mod net_check;
 mod net_explore;
 mod net_info;
+mod net_reduce;
 mod output;
 mod progress;
 mod report;
@@ -63,6 +64,7 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Info(arguments)) => arguments.json,
         Verb::Net(NetVerb::Check(arguments)) => arguments.json,
         Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
+        Verb::Net(NetVerb::Reduce(arguments)) => arguments.json,
         _ => false,
     };
     let outcome = match args.verb {
@@ -74,6 +76,7 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
         Verb::Net(NetVerb::Check(arguments)) => net_check::run(&arguments, &console),
         Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
+        Verb::Net(NetVerb::Reduce(arguments)) => net_reduce::run(&arguments, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),
     };
     match outcome {

@@ -109,9 +109,8 @@ impl Sketch {
                 let (one, two) = (self.transitions[t].clone(), self.transitions[u].clone());
                 let (mut pre, mut post) = ([one.0, two.0].concat(), [one.1, two.1].concat());
                 // What the first puts and the second takes need not be there before.
-                while let Some((i, j)) = (0..pre.len())
-                    .flat_map(|i| (0..post.len()).map(move |j| (i, j)))
-                    .find(|&(i, j)| pre[i] == post[j])
+                while let Some((i, j)) =
+                    (0..pre.len()).flat_map(|i| (0..post.len()).map(move |j| (i, j))).find(|&(i, j)| pre[i] == post[j])
                 {
                     pre.remove(i);
                     post.remove(j);
@@ -149,7 +148,8 @@ impl Sketch {
 
 /// A net of up to four places in a circle, between which tokens move, changed several times.
 pub fn refined_net() -> impl Strategy<Value = Net> {
-    let moves = proptest::collection::vec((0..4_usize, 0..4_usize, proptest::option::of((0..4_usize, 0..4_usize))), 0..=2);
+    let moves =
+        proptest::collection::vec((0..4_usize, 0..4_usize, proptest::option::of((0..4_usize, 0..4_usize))), 0..=2);
     let change = (prop_oneof![5 => 0..8_usize, 1 => 8..CHANGES.len()], any::<[u8; 3]>());
     (1..=4_usize, moves, proptest::collection::vec(change, 0..=8)).prop_map(|(places, moves, changes)| {
         let mut sketch = Sketch { tokens: vec![0; places], transitions: Vec::new() };

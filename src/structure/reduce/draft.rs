@@ -143,7 +143,8 @@ impl Draft {
     /// Whether no firing of a transition changes what is kept.
     pub fn is_silent(&self, transition: u32) -> bool {
         let row = self.transition(transition);
-        let is_same = |&(place, weight): &(u32, u64)| !self.place(place).is_kept || weight == self.puts(transition, place);
+        let is_same =
+            |&(place, weight): &(u32, u64)| !self.place(place).is_kept || weight == self.puts(transition, place);
         let comes = |&(place, _): &(u32, u64)| !self.place(place).is_kept || self.needs(transition, place) > 0;
         row.pre.iter().all(is_same) && row.post.iter().all(comes)
     }

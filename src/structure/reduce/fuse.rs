@@ -52,7 +52,8 @@ fn fuse(draft: &mut Draft, circle: &[u32]) {
     let around = Around::of(draft, circle);
     let fused = |row: &Row| -> Option<Row> {
         let inside = |place: u32| circle.binary_search(&place).is_ok();
-        sum([&row.iter().map(|&(place, weight)| (if inside(place) { *into } else { place }, weight)).collect()].into_iter())
+        sum([&row.iter().map(|&(place, weight)| (if inside(place) { *into } else { place }, weight)).collect()]
+            .into_iter())
     };
     let rows = around.transitions.iter().map(|&(id, ..)| {
         let row = draft.transition(id);

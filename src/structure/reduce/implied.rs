@@ -28,10 +28,11 @@ struct Column {
 
 pub fn apply(draft: &mut Draft) {
     let mut columns: Vec<Column> = draft.place_ids().filter_map(|place| column(draft, place)).collect();
-    columns.sort_unstable_by_key(|column| (column.hash, column.place));
+    columns.sort_unstable_by_key(|column| (column.hash, column.scale, column.place));
     draft.spend(columns.len());
     for group in columns.chunk_by(|a, b| a.hash == b.hash) {
-        for (position, q) in group.iter().enumerate() {
+        // Places of small weights stay.
+        for (position, q) in group.iter().enumerate().rev() {
             let others = group.iter().enumerate().filter(|&(other, _)| other != position).take(COMPARED);
             let is_implied = |p: &Column| !draft.place(p.place).is_gone && implies(draft, p, q) == Some(true);
             if draft.is_tired() || draft.place(q.place).is_kept {
@@ -76,10 +77,11 @@ fn implies(draft: &Draft, p: &Column, q: &Column) -> Option<bool> {
         }
     }
     for &id in &on_q.consumers {
-        // With x tokens on p there are tokens(q) + b / a * (x - tokens(p)) on q; x is at least what is needed.
-        let needs = i128::from(draft.needs(id, q.place)) - i128::from(on_q.tokens);
-        let there = i128::from(draft.needs(id, p.place)) - i128::from(on_p.tokens);
-        if needs.checked_mul(a)? > there.checked_mul(b)? {
+        // After some firings there are tokens(p) + a k tokens on p and tokens(q) + b k on q, for some number k.
+        let on_p = i128::from(draft.needs(id, p.place)) - i128::from(on_p.tokens);
+        let on_q = i128::from(draft.needs(id, q.place)) - i128::from(on_q.tokens);
+        let least = -(-on_p).div_euclid(a);
+        if on_q > least.checked_mul(b)? {
             return Some(false);
         }
     }

@@ -194,10 +194,11 @@ fn supply(transition: u32, around: &Around, run: &VecDeque<u32>) -> Result<u64, 
         let on = |row: &[(u32, u64)]| row.iter().find(|arc| arc.0 as usize == place).map_or(0, |arc| i128::from(arc.1));
         on(post) - on(pre)
     };
-    let mut times = short.iter().enumerate().filter(|(_, short)| **short > 0).map(|(place, &short)| match gain(place) {
-        gain @ 1.. => Some((short + gain - 1) / gain),
-        _ => None,
-    });
+    let mut times =
+        short.iter().enumerate().filter(|(_, short)| **short > 0).map(|(place, &short)| match gain(place) {
+            gain @ 1.. => Some((short + gain - 1) / gain),
+            _ => None,
+        });
     let times = times.try_fold(0, |most, times| times.map(|times| times.max(most)));
     let times = times.ok_or_else(|| LiftError::Refuted("a supply is too small".to_owned()))?;
     u64::try_from(times).map_err(|_| TOO_LONG)
@@ -211,9 +212,7 @@ fn route(moves: &[(usize, usize, u32)], around: &Around, run: &VecDeque<u32>) ->
     let mut out = VecDeque::with_capacity(run.len());
     for &id in run {
         if let Some((pre, post)) = around.get(id) {
-            let needed = |place: usize| {
-                pre.iter().find(|arc| arc.0 as usize == place).map_or(0, |arc| arc.1)
-            };
+            let needed = |place: usize| pre.iter().find(|arc| arc.0 as usize == place).map_or(0, |arc| arc.1);
             for &(place, weight) in pre {
                 while tokens[place as usize] < weight {
                     let way = nearest(&into, place as usize, &|from| tokens[from] > needed(from));

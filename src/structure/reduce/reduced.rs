@@ -82,7 +82,8 @@ impl<'n> Reduced<'n> {
             builder.weighted(name, &row(pre), &row(post), &[]);
         }
         let mut transition_ids = vec![None; log.originals];
-        for (position, &number) in numbers.iter().enumerate().filter(|(_, number)| (**number as usize) < log.originals) {
+        for (position, &number) in numbers.iter().enumerate().filter(|(_, number)| (**number as usize) < log.originals)
+        {
             transition_ids[number as usize] = Some(TransitionId::at(position));
         }
         Self {

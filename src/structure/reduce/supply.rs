@@ -17,9 +17,10 @@ pub fn apply(draft: &mut Draft) {
     }
     for id in draft.transition_ids().collect::<Vec<u32>>() {
         let row = draft.transition(id);
-        let never_takes = row.pre.iter().all(|&(place, weight)| {
-            weight <= draft.place(place).tokens && weight <= draft.puts(id, place)
-        });
+        let never_takes = row
+            .pre
+            .iter()
+            .all(|&(place, weight)| weight <= draft.place(place).tokens && weight <= draft.puts(id, place));
         if row.is_held || !never_takes || !draft.is_silent(id) {
             continue;
         }
