@@ -231,6 +231,8 @@ pub enum NetVerb {
     Check(NetCheck),
     /// Count the states of a net, in the lines of the Model Checking Contest.
     Explore(OnNet),
+    /// Write a smaller net that answers the same question.
+    Reduce(NetReduce),
 }
 
 /// What every verb on nets takes.
@@ -262,6 +264,40 @@ pub struct NetCheck {
     /// Print the firing sequence that shows an answer, where one can.
     #[arg(long, action = ArgAction::SetTrue)]
     pub trace: bool,
+}
+
+/// `petril net reduce`
+#[derive(Debug, clap::Args)]
+pub struct NetReduce {
+    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// A place whose tokens matter. May be given several times.
+    #[arg(long, value_name = "PLACE")]
+    pub keep: Vec<String>,
+    /// A transition of which it matters whether it is enabled. May be given several times.
+    #[arg(long, value_name = "TRANSITION")]
+    pub keep_enabled: Vec<String>,
+    /// What the smaller net is for.
+    #[arg(long = "for", value_name = "PROPERTY", value_enum, default_value_t = Kept::Reachability)]
+    pub property: Kept,
+    /// Print one JSON document.
+    #[arg(long, action = ArgAction::SetTrue)]
+    pub json: bool,
+}
+
+/// What a reduction keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Kept {
+    /// What the kept places can have together.
+    Reachability,
+    /// The same, in dead markings, too.
+    Deadlock,
+    /// Any formula of CTL or LTL about the kept places.
+    Paths,
 }
 
 /// `petril net info`

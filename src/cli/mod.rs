@@ -15,6 +15,7 @@ mod net_check;
 mod net_explore;
 mod net_info;
 mod net_structure;
+mod net_reduce;
 mod output;
 mod progress;
 mod report;
@@ -64,6 +65,7 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Info(arguments)) => arguments.on.json,
         Verb::Net(NetVerb::Check(arguments)) => arguments.on.json,
         Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
+        Verb::Net(NetVerb::Reduce(arguments)) => arguments.json,
         _ => false,
     };
     let outcome = match args.verb {
@@ -75,6 +77,7 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
         Verb::Net(NetVerb::Check(arguments)) => net_check::run(&arguments, &console),
         Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
+        Verb::Net(NetVerb::Reduce(arguments)) => net_reduce::run(&arguments, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),
     };
     match outcome {

@@ -8,6 +8,7 @@ mod incidence;
 mod invariants;
 mod kernel;
 mod largest;
+pub mod reduce;
 mod rounding;
 pub(crate) mod semiflows;
 mod simplex;

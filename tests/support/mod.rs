@@ -17,6 +17,7 @@ pub mod random_wide_body;
 pub mod random_wide_program;
 pub mod random_wide_value;
 pub mod reference;
+pub mod refined_net;
 pub mod reports;
 pub mod systems;
 pub mod token_game;

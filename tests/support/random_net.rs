@@ -1,6 +1,6 @@
 //! Random nets: some safe by construction, some anything.
 
-use petril::net::{Arcs, Builder, Net};
+use petril::net::{Arcs, Builder, Net, PlaceId};
 use proptest::prelude::*;
 
 /// A safe net: up to three devices of one token each, and transitions that move the token of one or several of them, and
@@ -43,6 +43,32 @@ pub fn any_net() -> impl Strategy<Value = Net> {
             let ids = |list: Vec<usize>| list.into_iter().map(|p| places[p]).collect::<Vec<_>>();
             builder
                 .transition(format!("t{t}"), Arcs { consume: &ids(consume), produce: &ids(produce), read: &ids(read) });
+        }
+        builder.build()
+    })
+}
+
+/// Any small net with weights, loops and several tokens on a place; bounded or not. Most transitions have few arcs, so that
+/// there are rows of places to make shorter.
+pub fn weighted_net() -> impl Strategy<Value = Net> {
+    let weight = || prop_oneof![8 => Just(1_u64), 2 => Just(2), 1 => Just(3)];
+    let tokens = prop_oneof![6 => Just(0_u64), 3 => Just(1), 1 => 2..=4_u64];
+    let side = move || {
+        let arcs = move |count| proptest::collection::vec((0..9_usize, weight()), count);
+        prop_oneof![1 => arcs(0), 6 => arcs(1), 3 => arcs(2), 1 => arcs(3)]
+    };
+    let test = proptest::option::weighted(0.1, (0..9_usize, weight()));
+    let transitions = proptest::collection::vec((side(), side(), test), 0..=10);
+    (proptest::collection::vec(tokens, 1..=9), transitions).prop_map(|(tokens, transitions)| {
+        let mut builder = Builder::new("weighted");
+        let add = |(i, &tokens): (usize, &u64)| builder.place_with(format!("p{i}"), tokens);
+        let places: Vec<PlaceId> = tokens.iter().enumerate().map(add).collect();
+        for (t, (take, put, test)) in transitions.into_iter().enumerate() {
+            let ids = |list: Vec<(usize, u64)>| -> Vec<(PlaceId, u64)> {
+                list.into_iter().map(|(place, weight)| (places[place % places.len()], weight)).collect()
+            };
+            let test = ids(test.into_iter().collect());
+            builder.weighted(format!("t{t}"), &ids(take), &ids(put), &test);
         }
         builder.build()
     })

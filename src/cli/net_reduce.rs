@@ -1,0 +1,76 @@
+//! `petril net reduce`: a smaller net that answers the same question.
+
+use std::ffi::OsStr;
+use std::fmt::Write as _;
+
+use petril::diagnostic::nearest;
+use petril::exchange::{dot, pnml, tina};
+use petril::net::{Net, PlaceId, TransitionId};
+use petril::structure::reduce::{Keep, Property, Size, reduce};
+use serde_json::json;
+
+use super::args::{Kept, NetReduce};
+use super::console::Console;
+use super::{Failure, Outcome, input, output};
+
+pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
+    let extension = arguments.output.extension().and_then(OsStr::to_str).unwrap_or_default();
+    let write = match extension {
+        "pnml" => |net: &Net| pnml::write(net, None, None),
+        "net" => tina::write,
+        "dot" => dot::write,
+        _ => {
+            let output = arguments.output.display();
+            let message = format!("`{output}` says no format: its name must end with .pnml, .net (TINA) or .dot");
+            return Err(Failure::Message(message));
+        }
+    };
+    let (located, _) = input::net(&arguments.model, console)?;
+    let net = located.net;
+    let property = match arguments.property {
+        Kept::Reachability => Property::Reachability,
+        Kept::Deadlock => Property::Deadlock,
+        Kept::Paths => Property::Paths,
+    };
+    let reduced =
+        reduce(&net, &Keep { property, places: places(&net, arguments)?, transitions: transitions(&net, arguments)? });
+    output::write(&arguments.output, &write(&reduced.net))?;
+    let (before, after) = (Size::of(&net), Size::of(&reduced.net));
+    if arguments.json {
+        let size = |size: Size| json!({ "places": size.places, "transitions": size.transitions, "arcs": size.arcs });
+        let applied = reduced.applied.iter().map(|(rule, times)| (rule.name().to_owned(), (*times).into()));
+        return console.print_json(json!({
+            "net": net.name(),
+            "before": size(before),
+            "after": size(after),
+            "applied": applied.collect::<serde_json::Map<String, serde_json::Value>>(),
+        }));
+    }
+    let mut out = String::new();
+    for (what, before, after) in [
+        ("places", before.places, after.places),
+        ("transitions", before.transitions, after.transitions),
+        ("arcs", before.arcs, after.arcs),
+    ] {
+        let _ = writeln!(out, "{what:<36}{before:>8} -> {after}");
+    }
+    for (rule, times) in &reduced.applied {
+        let _ = writeln!(out, "  {:<34}{times:>8}", rule.name());
+    }
+    console.print(&out)
+}
+
+fn places(net: &Net, arguments: &NetReduce) -> Result<Vec<PlaceId>, Failure> {
+    let unknown = |name: &str| unknown("place", name, net.places().map(|place| place.name));
+    arguments.keep.iter().map(|name| net.find_place(name).ok_or_else(|| unknown(name))).collect()
+}
+
+fn transitions(net: &Net, arguments: &NetReduce) -> Result<Vec<TransitionId>, Failure> {
+    let unknown = |name: &str| unknown("transition", name, net.transitions().map(|transition| transition.name));
+    arguments.keep_enabled.iter().map(|name| net.find_transition(name).ok_or_else(|| unknown(name))).collect()
+}
+
+fn unknown<'n>(kind: &str, name: &str, names: impl Iterator<Item = &'n str>) -> Failure {
+    let help = nearest(name, names).map(|nearest| format!("; did you mean `{nearest}`?")).unwrap_or_default();
+    Failure::Message(format!("the net has no {kind} `{name}`{help}"))
+}

@@ -1,0 +1,118 @@
+//! Transitions for which another one can stand in.
+//!
+//! - *Dominated*: another transition changes the same and needs no more. Whatever the first does, the second does, too. Equal
+//!   transitions are the simplest case. Keeps everything: the same markings follow each other.
+//! - *Idle*: the transition changes nothing. Keeps what is reachable. Where deadlocks matter, it goes only if another transition
+//!   needs no more: otherwise it may be what keeps a marking from being dead.
+//! - *Composed*: two others, one after the other, change the same and need no more than it does. Keeps what is reachable, and
+//!   deadlocks: where it is enabled, so is the first of the two.
+//!
+//! Source: redundant transitions, Berthelot 1987; the second and third, Thierry-Mieg 2020, "Structural reductions revisited".
+
+use std::hash::{Hash, Hasher};
+
+use rustc_hash::FxHasher;
+
+use super::draft::{Draft, effect, is_covered, sum};
+use super::{Property, Rule};
+
+/// Transitions with which one is compared, at most.
+const COMPARED: usize = 64;
+
+/// Removes dominated transitions.
+pub fn dominated(draft: &mut Draft) {
+    let mut all: Vec<(u64, usize, u32)> = Vec::new();
+    for id in draft.transition_ids() {
+        let mut hasher = FxHasher::default();
+        draft.effect(id).hash(&mut hasher);
+        all.push((hasher.finish(), draft.transition(id).pre.len(), id));
+    }
+    all.sort_unstable();
+    draft.spend(all.len());
+    for group in all.chunk_by(|a, b| a.0 == b.0) {
+        // Those that need least come first. An equal one is the one before.
+        let mut left: Vec<u32> = Vec::new();
+        for &(_, _, id) in group {
+            let row = draft.transition(id);
+            let stands_in = |&other: &u32| {
+                is_covered(&draft.transition(other).pre, &row.pre) && draft.effect(other) == draft.effect(id)
+            };
+            let compared = left.len().min(COMPARED) + 1;
+            let is_dominated = !row.is_held && left.iter().take(COMPARED).any(stands_in);
+            draft.spend(compared * (draft.transition(id).pre.len() + 1));
+            if is_dominated {
+                draft.remove_transition(id);
+                draft.count(Rule::Dominated, 1);
+            } else {
+                left.push(id);
+            }
+        }
+    }
+}
+
+/// Removes idle transitions.
+pub fn idle(draft: &mut Draft) {
+    if draft.property == Property::Paths {
+        return;
+    }
+    let idle = draft.transition_ids().filter(|&id| draft.transition(id).pre == draft.transition(id).post);
+    let idle: Vec<u32> = idle.filter(|&id| !draft.transition(id).is_held).collect();
+    for id in idle {
+        let row = draft.transition(id);
+        let others = row.pre.iter().flat_map(|&(place, _)| &draft.place(place).consumers).take(COMPARED);
+        let mut others = others.copied().filter(|&other| other != id);
+        let needs_no_less = |other| is_covered(&draft.transition(other).pre, &row.pre);
+        if draft.property == Property::Reachability || others.any(needs_no_less) {
+            draft.remove_transition(id);
+            draft.count(Rule::Idle, 1);
+        }
+        draft.spend(COMPARED);
+    }
+}
+
+/// Removes transitions that two others replace.
+pub fn composed(draft: &mut Draft) {
+    if draft.property == Property::Paths {
+        return;
+    }
+    for id in draft.transition_ids().collect::<Vec<u32>>() {
+        if draft.is_tired() {
+            return;
+        }
+        if !draft.transition(id).is_held && is_composed(draft, id) {
+            draft.remove_transition(id);
+            draft.count(Rule::Composed, 1);
+        }
+    }
+}
+
+/// Whether two other transitions replace one.
+fn is_composed(draft: &mut Draft, id: u32) -> bool {
+    let row = draft.transition(id).clone();
+    let aim = draft.effect(id);
+    let firsts = row.pre.iter().flat_map(|&(place, _)| draft.place(place).consumers.clone()).take(COMPARED);
+    let firsts: Vec<u32> = firsts.filter(|&first| first != id).collect();
+    for first in firsts {
+        let one = draft.transition(first);
+        if !is_covered(&one.pre, &row.pre) {
+            continue;
+        }
+        // What is there when the first has fired, where the transition could.
+        let Some(there) = sum([&row.pre, &one.post].into_iter()) else { continue };
+        let there = effect(&one.pre, &there).into_iter().map(|(place, tokens)| (place, tokens as u64)).collect();
+        // The second needs something that the first has put, or else they might as well come the other way round.
+        let seconds = one.post.iter().flat_map(|&(place, _)| &draft.place(place).consumers).take(COMPARED);
+        let found = seconds.copied().any(|second| {
+            let two = draft.transition(second);
+            let together = sum([&one.pre, &two.pre].into_iter()).zip(sum([&one.post, &two.post].into_iter()));
+            second != id
+                && is_covered(&two.pre, &there)
+                && together.is_some_and(|(pre, post)| effect(&pre, &post) == aim)
+        });
+        draft.spend(COMPARED);
+        if found {
+            return true;
+        }
+    }
+    false
+}

@@ -1,0 +1,36 @@
+//! Common factors of the weights around a place.
+//!
+//! If a number g divides every weight at a place that is not kept, then with x tokens on it the same is possible as with x / g
+//! (rounded down) tokens and all these weights divided by g.
+//!
+//! Keeps everything: markings are renamed.
+//!
+//! Source: Thierry-Mieg 2020, "Structural reductions revisited"; it follows from the firing rule.
+
+use super::Rule;
+use super::draft::Draft;
+
+pub fn apply(draft: &mut Draft, place: u32) -> bool {
+    let around = draft.around(place);
+    draft.spend(around.len() + 1);
+    let weights = around.iter().flat_map(|&id| [draft.needs(id, place), draft.puts(id, place)]);
+    let divisor = weights.fold(0, gcd);
+    if divisor <= 1 || draft.place(place).is_kept {
+        return false;
+    }
+    for id in around {
+        let row = draft.transition(id);
+        let (mut pre, mut post) = (row.pre.clone(), row.post.clone());
+        let arcs = pre.iter_mut().chain(&mut post);
+        arcs.filter(|arc| arc.0 == place).for_each(|arc| arc.1 /= divisor);
+        draft.rewrite(id, pre, post);
+    }
+    draft.places[place as usize].tokens /= divisor;
+    draft.count(Rule::Scaled, 1);
+    true
+}
+
+/// The greatest common divisor; of 0 and a number, the number.
+pub fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

@@ -1,0 +1,40 @@
+//! Places that never hold a transition back.
+//!
+//! No transition takes tokens from the place for good, and at the beginning there are as many as any transition needs. So each
+//! transition that needs some always finds them. This is so for places that only receive, for places whose tokens never change,
+//! and for places without arcs. If the place is not kept, it goes. If it is, it goes on counting, but nothing needs it any
+//! more.
+//!
+//! Keeps everything: the graph of markings stays as it is, but for the tokens of a place that nobody looks at.
+//!
+//! Source: redundant places, Berthelot 1987, "Transformations and decompositions of nets".
+
+use super::Rule;
+use super::draft::{Draft, without};
+
+pub fn apply(draft: &mut Draft, place: u32) -> bool {
+    let row = draft.place(place);
+    let consumers = row.consumers.clone();
+    draft.spend(consumers.len() + 1);
+    let is_free = consumers.iter().all(|&id| {
+        let needs = draft.needs(id, place);
+        needs <= row.tokens && draft.puts(id, place) >= needs
+    });
+    if !is_free || row.is_kept && consumers.is_empty() {
+        return false;
+    }
+    draft.count(Rule::Unrestricting, 1);
+    if !draft.place(place).is_kept {
+        draft.remove_place(place);
+        return true;
+    }
+    for id in consumers {
+        let gain = draft.puts(id, place) - draft.needs(id, place);
+        let row = draft.transition(id);
+        let (pre, mut post) = (without(&row.pre, place), row.post.clone());
+        post.iter_mut().filter(|arc| arc.0 == place).for_each(|arc| arc.1 = gain);
+        post.retain(|&(_, weight)| weight > 0);
+        draft.rewrite(id, pre, post);
+    }
+    true
+}
