@@ -297,7 +297,9 @@ impl<'s> Stream<'s> {
         };
         match error {
             Error::Syntax(SyntaxError::UnclosedDoctype) | Error::IllFormed(IllFormedError::MissingDoctypeName) => {
-                let start = self.source.text()[..at.min(self.source.text().len())].rfind("<!").unwrap_or(at);
+                // One without a name is complained of at its end.
+                let text = self.source.text();
+                let start = text[..(at + 2).min(text.len())].rfind("<!").unwrap_or(at);
                 document_type(start, self.code, self.format)
             }
             Error::Syntax(SyntaxError::InvalidBangMarkup) => self.ill_formed(at, "`<!` begins nothing that is known"),

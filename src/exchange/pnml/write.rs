@@ -158,8 +158,14 @@ fn unit_section(xml: &mut Xml<'_>, net: &Net, ids: &Ids<'_>, units: &Units) -> i
                 let subunits = words(unit.subunits.iter().map(|&unit| Cow::from(&units.units[unit].id)).collect());
                 let element = xml.create_element("unit").with_attribute(("id", unit.id.as_str()));
                 element.write_inner_content(|xml| {
-                    xml.create_element("places").write_text_content(BytesText::new(&places))?;
-                    xml.create_element("subunits").write_text_content(BytesText::new(&subunits)).map(drop)
+                    for (name, text) in [("places", &places), ("subunits", &subunits)] {
+                        let element = xml.create_element(name);
+                        match text.is_empty() {
+                            true => element.write_empty()?,
+                            false => element.write_text_content(BytesText::new(text))?,
+                        };
+                    }
+                    Ok(())
                 })?;
             }
             Ok(())
