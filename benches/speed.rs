@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use petril::draw::Positions;
-use petril::exchange::{Notes, pnml};
+use petril::exchange::{Notes, pnml, pnml::Extras};
 use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, StateSpace, explore};
 use petril::flat::flatten;
 use petril::logic::{Dag, ScanValuation, label};
@@ -113,7 +113,10 @@ fn exchanging(criterion: &mut Criterion) {
     let text = mixed(1000);
     let system = system(&text);
     let source = Source::new("mixed", text);
-    let write = || pnml::write(&system.net, Some(&Positions::of(&system)), Some(&Notes::of(&system, &source)));
+    let write = || {
+        let (positions, notes) = (Positions::of(&system), Notes::of(&system, &source));
+        pnml::write(&system.net, Extras { positions: Some(&positions), notes: Some(&notes), ..Extras::default() })
+    };
     let written = Source::new("mixed.pnml", write());
     group.throughput(Throughput::Bytes(written.text().len() as u64));
     group.bench_function("write", |bencher| bencher.iter(write));

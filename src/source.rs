@@ -31,6 +31,30 @@ impl Span {
     }
 }
 
+/// A span in half the memory, where there are millions. Only for texts of less than 4 GiB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ShortSpan {
+    start: u32,
+    end: u32,
+}
+
+impl ShortSpan {
+    /// The length of the longest text that has such spans.
+    pub const MAX_TEXT: usize = u32::MAX as usize;
+}
+
+impl From<Span> for ShortSpan {
+    fn from(span: Span) -> Self {
+        Self { start: span.start as u32, end: span.end as u32 }
+    }
+}
+
+impl From<ShortSpan> for Span {
+    fn from(span: ShortSpan) -> Self {
+        Self::new(span.start as usize, span.end as usize)
+    }
+}
+
 /// A text, the name it goes by in messages, and where its lines start.
 ///
 /// Line starts are computed once, so that asking for a line and column is a binary search.
@@ -39,13 +63,16 @@ pub struct Source {
     name: String,
     text: String,
     line_starts: Vec<usize>,
+    is_utf8: bool,
 }
 
 /// The bytes are no text: a NUL byte stands at this offset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotText {
     /// Offset of the NUL byte.
     pub offset: usize,
+    /// The bytes, given back.
+    pub bytes: Vec<u8>,
 }
 
 impl Source {
@@ -55,7 +82,7 @@ impl Source {
         let text = text.into();
         let after_newline = text.bytes().enumerate().filter(|&(_, b)| b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(after_newline).collect();
-        Self { name: name.into(), text, line_starts }
+        Self { name: name.into(), text, line_starts, is_utf8: true }
     }
 
     /// A source from the bytes of a file: UTF-8 with or without a byte order mark, else ISO 8859-1, which is what the
@@ -64,16 +91,26 @@ impl Source {
     ///
     /// # Errors
     /// [`NotText`] if the bytes hold a NUL, so are no text in either encoding.
-    pub fn decode(name: impl Into<String>, bytes: &[u8]) -> Result<Self, NotText> {
+    pub fn decode(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Result<Self, NotText> {
+        let mut bytes = bytes.into();
         if let Some(offset) = bytes.iter().position(|&b| b == 0) {
-            return Err(NotText { offset });
+            return Err(NotText { offset, bytes });
         }
-        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-        let text = match std::str::from_utf8(bytes) {
-            Ok(text) => text.to_owned(),
-            Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
+        if bytes.starts_with(b"\xEF\xBB\xBF") {
+            bytes.drain(..3);
+        }
+        // A file of UTF-8 is not copied: it may be large.
+        let (text, is_utf8) = match String::from_utf8(bytes) {
+            Ok(text) => (text, true),
+            Err(error) => (error.into_bytes().into_iter().map(char::from).collect(), false),
         };
-        Ok(Self::new(name, unify_line_ends(text)))
+        Ok(Self { is_utf8, ..Self::new(name, unify_line_ends(text)) })
+    }
+
+    /// Whether the file was UTF-8, not ISO 8859-1.
+    #[must_use]
+    pub fn is_utf8(&self) -> bool {
+        self.is_utf8
     }
 
     /// The name the text goes by in messages, usually the path as the user gave it.
@@ -123,7 +160,8 @@ impl Source {
 }
 
 fn unify_line_ends(text: String) -> String {
-    if !text.contains('\r') {
+    let is_alone = |at: usize| text.as_bytes().get(at + 1) != Some(&b'\n');
+    if !text.match_indices('\r').any(|(at, _)| is_alone(at)) {
         return text;
     }
     let mut rest = text.chars().peekable();
@@ -151,7 +189,8 @@ mod tests {
         assert_eq!(utf8.text(), "Tür", "the byte order mark goes");
         let latin1 = Source::decode("x", b"T\xFCr").unwrap();
         assert_eq!(latin1.text(), "Tür");
-        assert_eq!(Source::decode("x", b"ab\0c").unwrap_err(), NotText { offset: 2 });
+        assert!(utf8.is_utf8() && !latin1.is_utf8());
+        assert_eq!(Source::decode("x", b"ab\0c").unwrap_err().offset, 2);
     }
 
     #[test]

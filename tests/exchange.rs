@@ -7,7 +7,8 @@ use std::collections::{BTreeSet, VecDeque};
 use std::process::Command;
 
 use petril::draw::Positions;
-use petril::exchange::{Notes, pnml, tina};
+use petril::exchange::pnml::{self, Extras};
+use petril::exchange::{Notes, tina};
 use petril::flat::{Function, Instruction, Operand, Target};
 use petril::net::{Arcs, Builder, Net};
 use petril::semantics::{Role, Type, VarId};
@@ -61,7 +62,7 @@ proptest! {
         // A token put where one is read makes an arc of weight 2, which is written, but not read.
         let doubled = net.transitions().any(|t| t.arcs.read.iter().any(|place| t.arcs.produce.contains(place)));
         prop_assume!(!doubled);
-        prop_assert_eq!(from_pnml(&pnml::write(&net, None, None)), net);
+        prop_assert_eq!(from_pnml(&pnml::write(&net, Extras::default())), net);
     }
 
     #[test]
@@ -80,7 +81,7 @@ fn a_transition_that_would_double_a_token_has_an_arc_of_weight_2() {
     let p = builder.place("p", true);
     builder.transition("t", Arcs { consume: &[], produce: &[p], read: &[p] });
     let net = builder.build();
-    let text = pnml::write(&net, None, None);
+    let text = pnml::write(&net, Extras::default());
     assert_eq!(text.matches("<arc").count(), 2);
     assert!(text.contains("<text>2</text>"), "{text}");
     assert_eq!(from_tina(&tina::write(&net)), net);
@@ -110,7 +111,9 @@ fn the_two_hand_switch_goes_through_every_format_unchanged() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
     assert_eq!(Part::ALL.map(|part| system.size(part).0), [52, 7, 4]);
     let source = Source::new("two-hand-switch.il", TWO_HAND_SWITCH);
-    let text = pnml::write(&system.net, Some(&Positions::of(&system)), Some(&Notes::of(&system, &source)));
+    let (positions, notes, units) = (Positions::of(&system), Notes::of(&system, &source), system.units());
+    let extras = Extras { positions: Some(&positions), notes: Some(&notes), units: Some(&units), ..Extras::default() };
+    let text = pnml::write(&system.net, extras);
     let read = from_pnml(&text);
     assert_eq!(read, system.net);
     assert_eq!(from_tina(&tina::write(&system.net)), system.net);
@@ -121,7 +124,7 @@ fn the_two_hand_switch_goes_through_every_format_unchanged() {
 #[test]
 fn a_plant_that_reads_outputs_goes_through_every_format_unchanged() {
     let system = system(EVERY_INSTRUCTION, &[CYLINDER]);
-    assert_eq!(from_pnml(&pnml::write(&system.net, None, None)), system.net);
+    assert_eq!(from_pnml(&pnml::write(&system.net, Extras::default())), system.net);
     assert_eq!(from_tina(&tina::write(&system.net)), system.net);
 }
 
@@ -178,7 +181,7 @@ fn contest_models_are_read() {
         assert_eq!(net.places().len(), count("<place "), "{name}");
         assert_eq!(net.transitions().len(), count("<transition "), "{name}");
         assert_eq!(net.arc_count(), count("<arc "), "{name}");
-        assert_eq!(from_pnml(&pnml::write(&net, None, None)), net, "{name}");
+        assert_eq!(from_pnml(&pnml::write(&net, Extras::default())), net, "{name}");
         assert_eq!(from_tina(&tina::write(&net)), net, "{name}");
         let oracle = member(format!("{name}/oracle/{name}-SS.out"));
         let states =

@@ -146,7 +146,8 @@ pub struct Translate {
     /// A plant, as for `petril check`.
     #[arg(long, value_name = "NET")]
     pub plant: Vec<PathBuf>,
-    /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot, .svg.
+    /// Where to write; the ending chooses the format: .pnml, .net (TINA), .lola, .andl (Snoopy, MARCIE, Charlie), .pnt (INA),
+    /// .dot, .svg.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Which unit, and how it is read.
@@ -233,6 +234,8 @@ pub enum NetVerb {
     Explore(OnNet),
     /// Write a smaller net that answers the same question.
     Reduce(NetReduce),
+    /// Write a net in another format.
+    Convert(NetConvert),
 }
 
 /// What every verb on nets takes.
@@ -249,6 +252,18 @@ pub struct OnNet {
     pub limits: Limits,
 }
 
+/// `petril net convert`
+#[derive(Debug, clap::Args)]
+pub struct NetConvert {
+    /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Where to write; the ending chooses the format: .pnml, .net (TINA), .lola, .andl (Snoopy, MARCIE, Charlie), .pnt (INA),
+    /// .dot.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
 /// `petril net check`
 #[derive(Debug, clap::Args)]
 pub struct NetCheck {
@@ -261,9 +276,18 @@ pub struct NetCheck {
     /// A formula over the names of the net, like `AG (tokens("buffer") <= 3)`, `EF enabled("t") & marked("p")`, `AG !at deadlock`.
     #[arg(short = 'r', long = "formula", value_name = "FORMULA")]
     pub formula: Vec<String>,
-    /// Print the firing sequence that shows an answer, where one can.
-    #[arg(long, action = ArgAction::SetTrue)]
-    pub trace: bool,
+    /// Print the firing sequence that shows an answer, where one can: as a list, or as the XML of TAPAAL.
+    #[arg(long, value_name = "FORM", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "text")]
+    pub trace: Option<TraceForm>,
+}
+
+/// Forms of a firing sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TraceForm {
+    /// One transition a line, by name.
+    Text,
+    /// The XML that TAPAAL reads, with the ids of the PNML file.
+    Tapaal,
 }
 
 /// `petril net reduce`

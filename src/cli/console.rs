@@ -64,7 +64,9 @@ impl Console {
 
     /// Prints a result.
     pub fn print(&self, text: &str) -> Outcome {
-        match io::stdout().lock().write_all(text.as_bytes()) {
+        // What is behind the last line end waits in a buffer, and would be lost without a word.
+        let mut out = io::stdout().lock();
+        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
             Ok(()) => Ok(SUCCESS),
             // The reader has seen enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),

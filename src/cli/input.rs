@@ -27,9 +27,12 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
     let name = path.display().to_string();
     let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {}", reason(&error)));
     let mut bytes = Vec::new();
-    let mut reader: Box<dyn Read> =
-        if name == "-" { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(cannot)?) };
-    reader.by_ref().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
+    if name == "-" {
+        std::io::stdin().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
+    } else {
+        // The file itself, not a trait object: it knows its size, so that the bytes are put in their place at once.
+        File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(cannot)?;
+    }
     let refuse = |code, span, message: String, help: &str, bytes: &[u8]| {
         let source = Source::new(name.clone(), String::from_utf8_lossy(bytes).into_owned());
         console.diagnostics(&[Diagnostic::new(code, span, message).help(help)], &source);
@@ -39,7 +42,7 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
         let message = format!("this file has more than {} MiB", limit >> 20);
         return Err(refuse(Code::FileTooLarge, Span::default(), message, "is it the right file?", b""));
     }
-    Source::decode(name.clone(), &bytes).map_err(|NotText { offset }| {
+    Source::decode(name.clone(), bytes).map_err(|NotText { offset, bytes }| {
         let utf_16 = bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF");
         let (message, help) = if utf_16 {
             ("this file is written in UTF-16".to_owned(), "save it as UTF-8")
@@ -103,7 +106,10 @@ fn net_by(path: &Path, [of_tina, of_pnml]: [NetReader; 2], console: &Console) ->
     };
     let source = source(path, MAX_NET, console)?;
     match read(&source) {
-        Ok(net) => Ok((net, source)),
+        Ok(net) => {
+            console.diagnostics(&net.warnings, &source);
+            Ok((net, source))
+        }
         Err(diagnostics) => {
             console.diagnostics(&diagnostics, &source);
             Err(Failure::Reported)

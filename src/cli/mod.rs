@@ -8,10 +8,12 @@ mod console;
 mod draw;
 mod explain;
 mod flat;
+mod format;
 mod input;
 mod input_table;
 mod meaning;
 mod net_check;
+mod net_convert;
 mod net_explore;
 mod net_info;
 mod net_structure;
@@ -76,6 +78,7 @@ pub fn run() -> ExitCode {
         Verb::Draw(arguments) => draw::run(&arguments, &console),
         Verb::Net(NetVerb::Info(arguments)) => net_info::run(&arguments, &console),
         Verb::Net(NetVerb::Check(arguments)) => net_check::run(&arguments, &console),
+        Verb::Net(NetVerb::Convert(arguments)) => net_convert::run(&arguments, &console),
         Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
         Verb::Net(NetVerb::Reduce(arguments)) => net_reduce::run(&arguments, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),

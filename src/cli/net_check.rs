@@ -5,14 +5,15 @@ use std::process::ExitCode;
 
 use petril::diagnostic::Diagnostic;
 use petril::exchange::mcc::{self, Query};
+use petril::exchange::tapaal;
 use petril::explore::engine::Options;
 use petril::logic::{Nodes, bind_in_net, parse_formula};
-use petril::net::{Located, Net, PlaceId, TransitionId};
+use petril::net::{Located, PlaceId, TransitionId};
 use petril::source::Source;
 use petril::verdict::{Question, Reply, Run, judge};
 use serde_json::json;
 
-use super::args::NetCheck;
+use super::args::{NetCheck, TraceForm};
 use super::console::Console;
 use super::net_explore::threads;
 use super::progress::Watcher;
@@ -27,7 +28,7 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let report = judge(net, &questions, &options, &mut |progress| watcher.watch(progress));
     watcher.finish();
     let answers: Vec<Answer<'_>> =
-        names.iter().zip(&report.replies).map(|(name, reply)| Answer { name, reply, net }).collect();
+        names.iter().zip(&report.replies).map(|(name, reply)| Answer { name, reply, located: &located }).collect();
     if arguments.on.json {
         console.print_json(json!({
             "net": net.name(),
@@ -109,7 +110,7 @@ fn ids(located: &Located) -> Nodes<'_> {
 struct Answer<'r> {
     name: &'r str,
     reply: &'r Reply,
-    net: &'r Net,
+    located: &'r Located,
 }
 
 impl Answer<'_> {
@@ -121,10 +122,10 @@ impl Answer<'_> {
     }
 
     fn firings(&self, run: &Run) -> Vec<&str> {
-        run.firings.iter().map(|&id| self.net.transition(id).name).collect()
+        run.firings.iter().map(|&id| self.located.net.transition(id).name).collect()
     }
 
-    fn text(&self, trace: bool) -> String {
+    fn text(&self, trace: Option<TraceForm>) -> String {
         let mut out = String::new();
         let word = match self.reply {
             Reply::Holds(_) => "TRUE".to_owned(),
@@ -136,7 +137,12 @@ impl Answer<'_> {
         if let Reply::Unknown(reason) = self.reply {
             let _ = writeln!(out, "    {reason}");
         }
-        if let Some(run) = self.run().filter(|_| trace) {
+        let Some(run) = self.run() else { return out };
+        if trace == Some(TraceForm::Tapaal) {
+            let Located { net, ids, .. } = self.located;
+            let trace = tapaal::trace(net, ids.as_ref(), &run.firings, run.loop_start);
+            out += &trace.unwrap_or_else(|_| "    the trace takes too many tokens for TAPAAL's format\n".to_owned());
+        } else if trace == Some(TraceForm::Text) {
             for (i, name) in self.firings(run).into_iter().enumerate() {
                 let again = if run.loop_start == Some(i) { "  (from here for ever)" } else { "" };
                 let _ = writeln!(out, "    {:>4}  {name}{again}", i + 1);

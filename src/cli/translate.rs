@@ -1,31 +1,38 @@
 //! `petril translate`: the net of a program and its plant, as a file.
 
-use std::ffi::OsStr;
-
 use petril::draw::{self, Positions};
-use petril::exchange::{Notes, dot, pnml, tina};
+use petril::exchange::Notes;
+use petril::exchange::pnml::Extras;
 
 use super::args::Translate;
 use super::console::Console;
-use super::{Failure, Outcome, input, output};
+use super::format::Format;
+use super::{Failure, Outcome, input, net_convert, output};
+
+/// The most nodes a picture shows of a program: its file has a tenth of a gigabyte then.
+const MAX_DRAWN: usize = 100_000;
 
 pub fn run(arguments: &Translate, console: &Console) -> Outcome {
-    let extension = arguments.output.extension().and_then(OsStr::to_str).unwrap_or_default();
-    if !["pnml", "net", "dot", "svg"].contains(&extension) {
-        let message = format!(
-            "`{}` says no format: its name must end with .pnml, .net (TINA), .dot or .svg",
-            arguments.output.display()
-        );
-        return Err(Failure::Message(message));
-    }
+    let format = Format::of(&arguments.output)?;
     let (system, source) = input::system(&arguments.program, &arguments.plant, &arguments.reading, console)?;
-    let text = match extension {
-        "pnml" => pnml::write(&system.net, Some(&Positions::of(&system)), Some(&Notes::of(&system, &source))),
-        "net" => tina::write(&system.net),
-        "dot" => dot::write(&system.net),
-        _ => draw::diagram(&system),
-    };
-    output::write(&arguments.output, &text)?;
     let (places, transitions) = (system.net.places().len(), system.net.transitions().len());
+    match format {
+        Format::Svg if places + transitions > MAX_DRAWN => {
+            let message = format!("a picture of {} nodes would show nothing; ", places + transitions);
+            return Err(Failure::Message(message + "`petril draw --line N` draws one line of the program"));
+        }
+        Format::Svg => output::write_text(&arguments.output, &draw::diagram(&system))?,
+        Format::Pnml => {
+            let (positions, notes, units) = (Positions::of(&system), Notes::of(&system, &source), system.units());
+            let extras =
+                Extras { positions: Some(&positions), notes: Some(&notes), units: Some(&units), ..Extras::default() };
+            net_convert::write(&arguments.output, format, &system.net, extras, console)?;
+        }
+        _ => {
+            let units = system.units();
+            let extras = Extras { units: Some(&units), ..Extras::default() };
+            net_convert::write(&arguments.output, format, &system.net, extras, console)?;
+        }
+    }
     console.print(&format!("{}: {places} places, {transitions} transitions\n", arguments.output.display()))
 }

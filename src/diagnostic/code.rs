@@ -200,6 +200,8 @@ codes! {
     PlantNameTwice = "E0409",
     /// A component of a plant has too many markings to be taken in.
     PlantTooLarge = "E0410",
+    /// The units of a net do not fit it.
+    UnitsUnfit = "W0411",
 
     /// A requirement is not what the grammar expects.
     RequirementSyntax = "E0501",

@@ -1,7 +1,8 @@
 //! Graphviz DOT: a net for `dot -Tsvg` and its relatives.
 
-use std::fmt::Write as _;
+use std::io;
 
+use super::text;
 use crate::net::Net;
 
 /// Writes a net: places as circles, the marked ones with a token, transitions as boxes. The head of a read arc is a dot, as
@@ -28,41 +29,45 @@ use crate::net::Net;
 /// "#
 /// );
 /// ```
-#[must_use]
-pub fn write(net: &Net) -> String {
-    let mut out = format!("digraph \"{}\" {{\n", escaped(net.name()));
-    out += "  node [fontname=\"Helvetica\", fontsize=10];\n";
-    out += "  node [shape=circle, margin=0.02];\n";
+///
+/// # Errors
+/// Those of the output.
+pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
+    writeln!(out, "digraph \"{}\" {{", escaped(net.name()))?;
+    writeln!(out, "  node [fontname=\"Helvetica\", fontsize=10];")?;
+    writeln!(out, "  node [shape=circle, margin=0.02];")?;
     for (i, place) in net.places().enumerate() {
         let token = match place.tokens {
             0 => String::new(),
             1 => "●\\n".to_owned(),
             n => format!("{n}\\n"),
         };
-        let _ = writeln!(out, "  p{i} [label=\"{token}{}\"];", escaped(place.name));
+        writeln!(out, "  p{i} [label=\"{token}{}\"];", escaped(place.name))?;
     }
-    out += "  node [shape=box, height=0.3];\n";
+    writeln!(out, "  node [shape=box, height=0.3];")?;
     for (i, transition) in net.transitions().enumerate() {
-        let _ = writeln!(out, "  t{i} [label=\"{}\"];", escaped(transition.name));
+        writeln!(out, "  t{i} [label=\"{}\"];", escaped(transition.name))?;
     }
     for (i, id) in net.transition_ids().enumerate() {
-        let mut arc = |from: String, to: String, attributes: &[String]| {
-            let list = if attributes.is_empty() { String::new() } else { format!(" [{}]", attributes.join(", ")) };
-            let _ = writeln!(out, "  {from} -> {to}{list};");
-        };
-        let weight = |weight: u64| (weight > 1).then(|| format!("label={weight}"));
+        let weight = |weight: u64| if weight > 1 { format!(" [label={weight}]") } else { String::new() };
         for (place, n) in net.taken(id) {
-            arc(format!("p{}", place.index()), format!("t{i}"), weight(n).as_slice());
+            writeln!(out, "  p{} -> t{i}{};", place.index(), weight(n))?;
         }
         for (place, n) in net.read(id) {
-            let attributes: Vec<String> = ["arrowhead=dot".to_owned()].into_iter().chain(weight(n)).collect();
-            arc(format!("p{}", place.index()), format!("t{i}"), &attributes);
+            let weight = if n > 1 { format!(", label={n}") } else { String::new() };
+            writeln!(out, "  p{} -> t{i} [arrowhead=dot{weight}];", place.index())?;
         }
         for (place, n) in net.put(id) {
-            arc(format!("t{i}"), format!("p{}", place.index()), weight(n).as_slice());
+            writeln!(out, "  t{i} -> p{}{};", place.index(), weight(n))?;
         }
     }
-    out + "}\n"
+    writeln!(out, "}}")
+}
+
+/// As [`write_to`], as a text.
+#[must_use]
+pub fn write(net: &Net) -> String {
+    text(|out| write_to(net, out))
 }
 
 /// A text inside the quotes of a DOT string. A backslash would begin one of its escapes, an ampersand one of HTML's, and a

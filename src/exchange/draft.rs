@@ -3,21 +3,24 @@
 use std::path::Path;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::net::{Builder, Located, PlaceId};
-use crate::source::{Source, Span};
+use crate::net::{Builder, Located, PlaceId, Units};
+use crate::source::{ShortSpan, Source, Span};
 
 /// The most tokens a place may begin with, and the greatest weight: sums of many are still numbers.
 pub const MAX_COUNT: u64 = 1 << 40;
 
-/// Places and transitions in the order of the file. Arcs name places by position.
+/// Places and transitions in the order of the file, and the arcs in any.
 #[derive(Default)]
 pub struct Draft {
     pub places: Vec<DraftPlace>,
     pub transitions: Vec<DraftTransition>,
+    arcs: Vec<Arc>,
     /// The ids of both in the file, if the format has ids.
     pub ids: Option<(Vec<String>, Vec<String>)>,
+    pub units: Option<Units>,
     /// What no safe net has.
     pub not_safe: Vec<Diagnostic>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 pub struct DraftPlace {
@@ -29,24 +32,24 @@ pub struct DraftPlace {
 pub struct DraftTransition {
     pub name: String,
     pub span: Span,
-    pub consume: Vec<Arc>,
-    pub produce: Vec<Arc>,
-    pub read: Vec<Arc>,
 }
 
-/// One end of an arc: a place, the arc's weight, and where it stands.
+/// What an arc does to its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Direction {
+    Consume,
+    Produce,
+    Read,
+}
+
+/// An arc, in little memory: a file may have millions.
 #[derive(Clone, Copy)]
-pub struct Arc {
-    pub place: usize,
-    pub weight: u64,
-    pub span: Span,
-}
-
-impl DraftTransition {
-    /// A transition without arcs.
-    pub fn new(name: String, span: Span) -> Self {
-        Self { name, span, consume: Vec::new(), produce: Vec::new(), read: Vec::new() }
-    }
+struct Arc {
+    transition: u32,
+    place: u32,
+    weight: u64,
+    span: ShortSpan,
+    direction: Direction,
 }
 
 impl Draft {
@@ -55,48 +58,59 @@ impl Draft {
         self.not_safe.push(Diagnostic::new(Code::NetNotOrdinary, span, message).help(help));
     }
 
-    /// Notes which arcs are drawn twice: together they have the weight 2.
+    /// Adds an arc between a transition and a place, both by position.
+    pub fn arc(&mut self, transition: usize, direction: Direction, place: usize, weight: u64, span: Span) {
+        let (transition, place) = (transition as u32, place as u32);
+        self.arcs.push(Arc { transition, place, weight, span: span.into(), direction });
+    }
+
+    /// Notes which arcs are drawn twice: together they have the weight 2. The arcs are in order.
     fn parallel_arcs(&mut self) {
-        for transition in &self.transitions {
-            for list in [&transition.consume, &transition.produce, &transition.read] {
-                let mut sorted = list.clone();
-                sorted.sort_by_key(|arc| (arc.place, arc.span));
-                for pair in sorted.windows(2).filter(|pair| pair[0].place == pair[1].place) {
-                    let place = &self.places[pair[0].place].name;
-                    let message = format!("two arcs join `{place}` and `{}` in the same direction", transition.name);
-                    self.not_safe.push(
-                        Diagnostic::new(Code::NetNotOrdinary, pair[1].span, message)
-                            .here("this makes a weight of 2")
-                            .also(pair[0].span, "the first is here")
-                            .help("leave one of them: in a safe net every arc has weight 1"),
-                    );
-                }
-            }
+        let key = |arc: &Arc| (arc.transition, arc.direction, arc.place);
+        for pair in self.arcs.windows(2).filter(|pair| key(&pair[0]) == key(&pair[1])) {
+            let (place, transition) =
+                (&self.places[pair[0].place as usize].name, &self.transitions[pair[0].transition as usize].name);
+            let message = format!("two arcs join `{place}` and `{transition}` in the same direction");
+            self.not_safe.push(
+                Diagnostic::new(Code::NetNotOrdinary, pair[1].span.into(), message)
+                    .here("this makes a weight of 2")
+                    .also(pair[0].span.into(), "the first is here")
+                    .help("leave one of them: in a safe net every arc has weight 1"),
+            );
         }
     }
 
     /// The net, with the spans of its nodes, unless there are errors.
     pub fn finish(mut self, name: impl FnOnce() -> String, errors: Vec<Diagnostic>) -> Result<Located, Trouble> {
+        self.arcs.sort_unstable_by_key(|arc| (arc.transition, arc.direction, arc.place, arc.span));
         self.parallel_arcs();
         if !errors.is_empty() {
             return Err(Trouble { errors, not_safe: self.not_safe });
         }
         self.not_safe.sort_by_key(Diagnostic::span);
-        let name = name();
-        let mut builder = Builder::new(name);
-        let places: Vec<PlaceId> =
-            self.places.iter().map(|place| builder.place_with(&place.name, place.tokens)).collect();
-        let arcs =
-            |list: &[Arc]| -> Vec<(PlaceId, u64)> { list.iter().map(|arc| (places[arc.place], arc.weight)).collect() };
-        for DraftTransition { name, consume, produce, read, .. } in &self.transitions {
-            builder.weighted(name, &arcs(consume), &arcs(produce), &arcs(read));
+        self.warnings.sort_by_key(Diagnostic::span);
+        let mut builder = Builder::new(name());
+        for place in &self.places {
+            builder.place_with(&place.name, place.tokens);
+        }
+        let mut arcs = self.arcs.iter().peekable();
+        let mut lists: [Vec<(PlaceId, u64)>; 3] = Default::default();
+        for (position, transition) in self.transitions.iter().enumerate() {
+            lists.iter_mut().for_each(Vec::clear);
+            while let Some(arc) = arcs.next_if(|arc| arc.transition as usize == position) {
+                lists[arc.direction as usize].push((PlaceId::at(arc.place as usize), arc.weight));
+            }
+            let [consume, produce, read] = &lists;
+            builder.weighted(&transition.name, consume, produce, read);
         }
         Ok(Located {
             net: builder.build(),
             places: self.places.iter().map(|place| place.span).collect(),
             transitions: self.transitions.iter().map(|transition| transition.span).collect(),
             ids: self.ids,
+            units: self.units,
             not_safe: self.not_safe,
+            warnings: self.warnings,
         })
     }
 }

@@ -4,12 +4,25 @@
 //! with the text; writers give a text. What a safe place/transition net cannot express is refused, never left out in silence.
 
 mod draft;
+mod escape;
 mod notes;
 
+pub mod andl;
 pub mod dot;
+pub mod ina;
 pub mod json;
+pub mod lola;
 pub mod mcc;
 pub mod pnml;
+pub mod tapaal;
 pub mod tina;
 
+pub use escape::unescaped;
 pub use notes::{Note, Notes};
+
+/// What a writer writes, as a text.
+fn text(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
+    let mut bytes = Vec::new();
+    write(&mut bytes).expect("memory takes everything that is written to it");
+    String::from_utf8_lossy(&bytes).into_owned()
+}

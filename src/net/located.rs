@@ -1,6 +1,6 @@
 //! A net together with where its nodes stand in the file it was read from.
 
-use super::{Net, PlaceId, TransitionId};
+use super::{Net, PlaceId, TransitionId, Units};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
@@ -15,8 +15,12 @@ pub struct Located {
     pub transitions: Vec<Span>,
     /// The ids of places and transitions in the file, by position; none where the format knows names only.
     pub ids: Option<(Vec<String>, Vec<String>)>,
+    /// The units of its places, if the file has them.
+    pub units: Option<Units>,
     /// What no safe net has, like weights, each with where it stands.
     pub not_safe: Vec<Diagnostic>,
+    /// What is wrong with the file and changes nothing about the net.
+    pub warnings: Vec<Diagnostic>,
 }
 
 impl Located {

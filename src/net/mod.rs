@@ -27,6 +27,7 @@ mod located;
 mod marking;
 mod names;
 mod tokens;
+mod units;
 mod weighted;
 
 pub use arcs::Arcs;
@@ -34,6 +35,7 @@ pub use builder::Builder;
 pub use located::Located;
 pub use marking::{Marking, NotSafe};
 pub use tokens::{Overflow, Tokens};
+pub use units::{Unit, Units};
 
 use arcs::ArcTable;
 use names::Names;

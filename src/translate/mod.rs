@@ -28,6 +28,7 @@ mod shift;
 mod store;
 mod subnet;
 mod system;
+mod units;
 mod valuation;
 mod walk;
 mod weaver;

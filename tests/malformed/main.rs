@@ -9,6 +9,7 @@ mod requirements;
 mod soup;
 #[path = "../support/mod.rs"]
 mod support;
+mod xml;
 
 use std::fs;
 

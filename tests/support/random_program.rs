@@ -90,7 +90,9 @@ pub fn device() -> impl Strategy<Value = Located> {
             places: vec![Span::default(); places],
             transitions: vec![Span::default(); transitions],
             ids: None,
+            units: None,
             not_safe: Vec::new(),
+            warnings: Vec::new(),
         }
     })
 }

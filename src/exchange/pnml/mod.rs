@@ -1,16 +1,19 @@
 //! PNML, place/transition nets (ISO/IEC 15909-2).
 //!
-//! Read are nets over several pages, with reference nodes, with or without graphics; tool sections of others do not count.
+//! Read are nets over several pages, with reference nodes, with or without graphics. Of tool sections, that of nested-unit
+//! Petri nets (NUPN) is read; others do not count.
 //! A node is called by its name, or by its id if it has no name or shares it with an earlier node.
 
 mod contents;
+mod ids;
 mod label;
 mod read;
 mod references;
+mod units;
 mod write;
 
 #[cfg(test)]
 mod tests;
 
 pub use read::{read, read_safe};
-pub use write::write;
+pub use write::{Extras, write, write_to};

@@ -158,7 +158,7 @@ fn weights_and_tokens_are_read_and_noted_where_they_stand() {
     assert_eq!(file.net.pre(t).collect::<Vec<_>>(), [(a, 2), (b, 1)]);
     assert_eq!(file.net.post(t).collect::<Vec<_>>(), [(a, 3)]);
     assert_eq!(file.ids, Some((vec!["a".to_owned(), "b".to_owned()], vec!["t".to_owned()])));
-    assert_eq!(read(&Source::new("n", super::write(&file.net, None, None))).unwrap().net, file.net);
+    assert_eq!(read(&Source::new("n", super::write(&file.net, super::Extras::default()))).unwrap().net, file.net);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use pest::iterators::Pair;
 use super::expected;
 use super::read::Rule;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::exchange::draft::{Draft, MAX_COUNT};
+use crate::exchange::draft::{Direction, Draft, MAX_COUNT};
 use crate::source::Span;
 
 /// A name without its quoting, and where it stands.
@@ -27,14 +27,6 @@ pub enum Declaration {
         name: Name,
         arcs: Vec<(Direction, Name, u64)>,
     },
-}
-
-/// What an arc does to its place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
-    Consume,
-    Read,
-    Produce,
 }
 
 /// A line; `None` if it is reported, or says nothing about the net itself. What no safe net has is noted in the draft.

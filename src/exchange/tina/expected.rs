@@ -4,6 +4,7 @@ use pest::Parser;
 use pest::error::Error;
 
 use super::read::{Rule, TinaParser};
+use super::write;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::Span;
 
@@ -23,6 +24,10 @@ pub fn explain(line: &str, start: usize) -> Diagnostic {
         return diagnostic
             .suggest(word, WORDS)
             .help("a line is `net NAME`, `pl PLACE (1)` or `tr NAME PLACES -> PLACES`");
+    }
+    let here = rest.split_whitespace().next().unwrap_or_default();
+    if write::WORDS.contains(&here) {
+        return diagnostic.help(format!("`{here}` begins a declaration; a node of this name is written `{{{here}}}`"));
     }
     if rest.starts_with('{') {
         return diagnostic

@@ -20,4 +20,4 @@ mod write;
 mod tests;
 
 pub use read::{read, read_safe};
-pub use write::write;
+pub use write::{write, write_to};

@@ -6,10 +6,10 @@ use pest::Parser;
 use pest::iterators::Pair;
 use pest_derive::Parser;
 
-use super::consume::{self, Declaration, Direction, Name};
+use super::consume::{self, Declaration, Name};
 use super::expected;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::exchange::draft::{Arc, Draft, DraftPlace, DraftTransition, Trouble, file_stem};
+use crate::exchange::draft::{Draft, DraftPlace, DraftTransition, Trouble, file_stem};
 use crate::net::Located;
 use crate::source::{Source, Span};
 
@@ -81,16 +81,13 @@ impl Assembly {
                 if first != span {
                     diagnostics.push(twice("transition", &text, span, first));
                 }
-                let mut transition = DraftTransition::new(text, span);
+                let transition = self.draft.transitions.len();
+                self.draft.transitions.push(DraftTransition { name: text, span });
                 for (direction, place, weight) in arcs {
-                    let arc = Arc { span: place.span, place: self.place(place), weight };
-                    match direction {
-                        Direction::Consume => transition.consume.push(arc),
-                        Direction::Read => transition.read.push(arc),
-                        Direction::Produce => transition.produce.push(arc),
-                    }
+                    let span = place.span;
+                    let place = self.place(place);
+                    self.draft.arc(transition, direction, place, weight, span);
                 }
-                self.draft.transitions.push(transition);
             }
         }
     }

@@ -55,6 +55,29 @@ fn every_declaration_of_the_format_is_read() {
 }
 
 #[test]
+fn several_declarations_stand_on_one_line() {
+    let net =
+        read(&Source::new("n", "net n pl p (1) tr t p -> q tr u q?1 -> {pl} r pl r (1) # all\npl q")).unwrap().net;
+    let places: Vec<_> = net.places().map(|place| (place.name, place.tokens)).collect();
+    assert_eq!(places, [("p", 1), ("q", 0), ("pl", 0), ("r", 1)]);
+    assert_eq!(net.transitions().map(|t| t.name).collect::<Vec<_>>(), ["t", "u"]);
+    assert_eq!(super::write(&net).lines().last(), Some("tr u q?1 -> {pl} r"), "a word is no name");
+    assert_eq!(
+        problem("tr t p -> tr"),
+        [
+            "expected a name, found the end of the line",
+            "",
+            "write a transition as `tr NAME PLACES -> PLACES` on one line"
+        ]
+    );
+    assert_eq!(
+        problem("pl net (1)"),
+        ["expected a name, found `net`", "net", "`net` begins a declaration; a node of this name is written `{net}`"]
+    );
+    assert_eq!(problem("tr t p -> q [1,2] u")[0], "expected the end of the line or a name, found `[`");
+}
+
+#[test]
 fn a_net_without_a_name_is_called_after_its_file() {
     assert_eq!(read(&Source::new("some/folder/doors.net", "pl p")).unwrap().net.name(), "doors");
     assert_eq!(read(&Source::new("-", "")).unwrap().net.name(), "-");

@@ -1,44 +1,64 @@
 //! Net to text.
 
-use std::fmt::Write as _;
+use std::borrow::Cow;
+use std::io;
 
+use crate::exchange::text;
 use crate::net::{Net, PlaceId};
 
+/// Words that begin a declaration.
+pub(super) const WORDS: [&str; 6] = ["lb", "net", "nt", "pl", "pr", "tr"];
+
 /// Writes a net. Reading it back gives the same net.
-#[must_use]
-pub fn write(net: &Net) -> String {
-    let mut out = format!("net {}\n", name(net.name()));
+///
+/// # Errors
+/// Those of the output.
+pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
+    writeln!(out, "net {}", name(net.name()))?;
     for place in net.places() {
-        let marking = if place.tokens > 0 { format!(" ({})", place.tokens) } else { String::new() };
-        let _ = writeln!(out, "pl {}{marking}", name(place.name));
+        write!(out, "pl {}", name(place.name))?;
+        if place.tokens > 0 {
+            write!(out, " ({})", place.tokens)?;
+        }
+        writeln!(out)?;
     }
     for id in net.transition_ids() {
-        let arc = |place: PlaceId, weight: u64| match weight {
-            1 => format!(" {}", name(net.place(place).name)),
-            _ => format!(" {}*{weight}", name(net.place(place).name)),
+        let place = |place: PlaceId| name(net.place(place).name);
+        let arc = |out: &mut dyn io::Write, to: PlaceId, weight: u64| match weight {
+            1 => write!(out, " {}", place(to)),
+            _ => write!(out, " {}*{weight}", place(to)),
         };
         let read = |place: PlaceId| net.read(id).find(|&(other, _)| other == place).map_or(0, |(_, weight)| weight);
-        let _ = write!(out, "tr {}", name(net.transition(id).name));
         // A test asks for tokens that are there, perhaps the ones that are taken: what is needed besides is taken and put back.
-        let both = |place: &PlaceId| net.arcs(id).consume.binary_search(place).is_ok();
-        net.taken(id).for_each(|(place, weight)| out += &arc(place, weight + read(place)));
-        for (place, weight) in net.read(id).filter(|(place, _)| !both(place)) {
-            let _ = write!(out, " {}?{weight}", name(net.place(place).name));
+        let both = |place: PlaceId| net.arcs(id).consume.binary_search(&place).is_ok();
+        write!(out, "tr {}", name(net.transition(id).name))?;
+        for (place, weight) in net.taken(id) {
+            arc(out, place, weight + read(place))?;
         }
-        out += " ->";
-        net.put(id).for_each(|(place, weight)| out += &arc(place, weight));
-        net.read(id).filter(|(place, _)| both(place)).for_each(|(place, weight)| out += &arc(place, weight));
-        out += "\n";
+        for (tested, weight) in net.read(id).filter(|&(place, _)| !both(place)) {
+            write!(out, " {}?{weight}", place(tested))?;
+        }
+        write!(out, " ->")?;
+        for (place, weight) in net.put(id).chain(net.read(id).filter(|&(place, _)| both(place))) {
+            arc(out, place, weight)?;
+        }
+        writeln!(out)?;
     }
-    out
+    Ok(())
+}
+
+/// As [`write_to`], as a text.
+#[must_use]
+pub fn write(net: &Net) -> String {
+    text(|out| write_to(net, out))
 }
 
 /// A name as it is written: bare if it can be, else in braces.
-fn name(name: &str) -> String {
+fn name(name: &str) -> Cow<'_, str> {
     let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '\'');
-    if is_bare {
-        return name.to_owned();
+    if is_bare && !WORDS.contains(&name) {
+        return Cow::Borrowed(name);
     }
     let escaped = name.chars().flat_map(|c| matches!(c, '{' | '}' | '\\').then_some('\\').into_iter().chain([c]));
-    format!("{{{}}}", escaped.collect::<String>())
+    Cow::Owned(format!("{{{}}}", escaped.collect::<String>()))
 }

@@ -1,4 +1,4 @@
-//! XML documents with positions: what the formats in XML share.
+//! XML documents as trees.
 
 use roxmltree::{Document, Node};
 
@@ -12,8 +12,7 @@ pub(crate) struct Text {
     pub span: Span,
 }
 
-/// The document of a text, or why it is none. Document type declarations, which could define entities of any size, are
-/// refused: no format that is read has them.
+/// The document of a text, or why it is none.
 pub(crate) fn document<'s>(source: &'s Source, code: Code, format: &str) -> Result<Document<'s>, Diagnostic> {
     Document::parse(source.text()).map_err(|error| malformed(&error, source, code, format))
 }
@@ -27,13 +26,10 @@ fn malformed(error: &roxmltree::Error, source: &Source, code: Code, format: &str
         _ => offset(source, error.pos()).min(source.text().trim_end().len()),
     };
     if matches!(error, Error::DtdDetected) {
-        let span = Span::new(at, at + "<!DOCTYPE".len());
-        let diagnostic = Diagnostic::new(code, span, format!("a document type declaration is not part of {format}"));
-        return diagnostic.help("remove the `<!DOCTYPE …>` with all its entities");
+        return super::document_type(at, code, format);
     }
     let text = error.to_string();
-    let text = text.replace(&format!(" at {}", error.pos()), "");
-    Diagnostic::new(code, Span::new(at, at), format!("this is no well-formed XML: {text}"))
+    super::ill_formed(at, code, &text.replace(&format!(" at {}", error.pos()), ""))
 }
 
 /// The byte offset of a line and column, both counted from 1, the column in characters.

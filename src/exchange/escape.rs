@@ -1,0 +1,105 @@
+//! Names in formats that have fewer characters than nets: an escape that can be undone.
+//!
+//! A character that cannot stand in a name is written `_x`, its number in hexadecimal, `_`; so is the first letter of a word
+//! that means something else there. `_` itself is written so where an `x` follows, so that every `_x` begins an escape. `_x_`
+//! means nothing: it is the empty name, and tells apart two nodes of the same name.
+//!
+//! `S1=0` becomes `S1_x3D_0`, and `a_x` becomes `a_x5F_x`.
+
+use std::fmt::Write as _;
+
+/// What names a format has.
+#[derive(Clone, Copy)]
+pub struct Alphabet {
+    /// Whether a character can stand in a name. `_`, `x` and the digits of hexadecimal numbers always can.
+    pub allows: fn(char) -> bool,
+    /// Whether a character can stand at the beginning of a name. `_` always can.
+    pub begins: fn(char) -> bool,
+    /// Whether a name means something else.
+    pub is_reserved: fn(&str) -> bool,
+}
+
+/// A name in a format. Different names stay different.
+pub fn escaped(name: &str, alphabet: Alphabet) -> String {
+    let mut text = String::with_capacity(name.len());
+    let is_reserved = (alphabet.is_reserved)(name);
+    let mut chars = name.chars().peekable();
+    let mut is_first = true;
+    while let Some(c) = chars.next() {
+        let fits = (alphabet.allows)(c) && !(is_first && (is_reserved || !(alphabet.begins)(c)));
+        if fits && !(c == '_' && chars.peek() == Some(&'x')) {
+            text.push(c);
+        } else {
+            let _ = write!(text, "_x{:X}_", u32::from(c));
+        }
+        is_first = false;
+    }
+    if text.is_empty() { APART.to_owned() } else { text }
+}
+
+/// What means nothing in an escaped name.
+pub const APART: &str = "_x_";
+
+/// The name that an escaped one stands for; `None` if it is none.
+#[must_use]
+pub fn unescaped(text: &str) -> Option<String> {
+    let mut pieces = text.split("_x");
+    let mut name = pieces.next()?.to_owned();
+    for piece in pieces {
+        let (number, rest) = piece.split_once('_')?;
+        if !number.is_empty() {
+            name.push(char::from_u32(u32::from_str_radix(number, 16).ok()?)?);
+        }
+        name += rest;
+    }
+    Some(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const WORDS: Alphabet = Alphabet {
+        allows: |c| c.is_ascii_alphanumeric() || c == '_',
+        begins: |c| c.is_ascii_alphabetic(),
+        is_reserved: |name| ["a", "AF"].contains(&name),
+    };
+
+    #[test]
+    fn escapes_are_as_described() {
+        let table = [
+            ("S1=0", "S1_x3D_0"),
+            ("a_x", "a_x5F_x"),
+            ("a_xx41_", "a_x5F_xx41_"),
+            ("__x", "_x5F__x5F_x"),
+            ("AF", "_x41_F"),
+            ("a", "_x61_"),
+            ("1", "_x31_"),
+            ("_", "_x5F_"),
+            ("😀", "_x1F600_"),
+            ("", "_x_"),
+            ("plain_Name2", "plain_Name2"),
+        ];
+        for (name, text) in table {
+            assert_eq!(escaped(name, WORDS), text);
+            assert_eq!(unescaped(text).as_deref(), Some(name));
+            assert_eq!(unescaped(&format!("{text}{APART}")).as_deref(), Some(name));
+        }
+        for text in ["_x", "_x41", "_xG_", "_xD800_"] {
+            assert_eq!(unescaped(text), None, "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_escaped_can_be_had_back(name in "([ax_X0-9A-F=é\\[]|_x|\\PC){0,8}") {
+            let text = escaped(&name, WORDS);
+            prop_assert!(text.chars().all(WORDS.allows), "{}", text);
+            prop_assert!(text.starts_with('_') || text.starts_with(WORDS.begins), "{}", text);
+            prop_assert!(!(WORDS.is_reserved)(&text), "{}", text);
+            prop_assert_eq!(unescaped(&text), Some(name));
+        }
+    }
+}
