@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+use petril::verdict::Examination;
 
 use super::meaning::{Meaning, Reading};
 
@@ -239,12 +240,15 @@ pub struct NetCheck {
     #[arg(value_name = "MODEL")]
     pub model: PathBuf,
     /// Properties in the contest's XML, with the ids of the PNML file. May be given several times.
-    #[arg(long, value_name = "XML", required_unless_present = "formula")]
+    #[arg(long, value_name = "XML", required_unless_present_any = ["formula", "examination"])]
     pub properties: Vec<PathBuf>,
+    /// A question that the contest asks about every net. May be given several times.
+    #[arg(long, value_name = "NAME", value_parser = examination)]
+    pub examination: Vec<Examination>,
     /// A formula over the names of the net, like `AG (tokens("buffer") <= 3)`, `EF enabled("t") & marked("p")`, `AG !at deadlock`.
     #[arg(short = 'r', long = "formula", value_name = "FORMULA")]
     pub formula: Vec<String>,
-    /// Print the firing sequence that shows an answer, where one can.
+    /// Print the firing sequences that show an answer, where any can, and what holds on their way.
     #[arg(long, action = ArgAction::SetTrue)]
     pub trace: bool,
     /// Print one JSON document.
@@ -253,6 +257,12 @@ pub struct NetCheck {
     /// Limits of the exploration.
     #[command(flatten)]
     pub limits: Limits,
+}
+
+/// An examination by its name.
+fn examination(name: &str) -> Result<Examination, String> {
+    let found = Examination::ALL.into_iter().find(|examination| examination.name().eq_ignore_ascii_case(name));
+    found.ok_or_else(|| format!("there are {}", Examination::ALL.map(Examination::name).join(", ")))
 }
 
 /// `petril net explore`

@@ -14,6 +14,7 @@ mod meaning;
 mod net_check;
 mod net_explore;
 mod net_info;
+mod net_run;
 mod output;
 mod progress;
 mod report;

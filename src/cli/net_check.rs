@@ -16,7 +16,7 @@ use super::args::NetCheck;
 use super::console::Console;
 use super::net_explore::threads;
 use super::progress::Watcher;
-use super::{Failure, Outcome, SUCCESS, input};
+use super::{Failure, Outcome, SUCCESS, input, net_run};
 
 pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let (located, _) = input::net(&arguments.model, console)?;
@@ -95,6 +95,10 @@ fn questions(
             Err(errors) => refuse(&errors, &source),
         }
     }
+    for examination in &arguments.examination {
+        names.push(examination.name().to_owned());
+        questions.push(examination.question());
+    }
     if failed { Err(Failure::Reported) } else { Ok((names, questions)) }
 }
 
@@ -120,10 +124,6 @@ impl Answer<'_> {
         }
     }
 
-    fn firings(&self, run: &Run) -> Vec<&str> {
-        run.firings.iter().map(|&id| self.net.transition(id).name).collect()
-    }
-
     fn text(&self, trace: bool) -> String {
         let mut out = String::new();
         let word = match self.reply {
@@ -137,13 +137,7 @@ impl Answer<'_> {
             let _ = writeln!(out, "    {reason}");
         }
         if let Some(run) = self.run().filter(|_| trace) {
-            for (i, name) in self.firings(run).into_iter().enumerate() {
-                let again = if run.loop_start == Some(i) { "  (from here for ever)" } else { "" };
-                let _ = writeln!(out, "    {:>4}  {name}{again}", i + 1);
-            }
-            if run.firings.is_empty() {
-                out += "    the initial marking shows it\n";
-            }
+            out += &net_run::text(run, self.net);
         }
         out
     }
@@ -155,7 +149,7 @@ impl Answer<'_> {
             Reply::Most(most) => (json!(most), None),
             Reply::Unknown(reason) => (json!("unknown"), Some(reason)),
         };
-        let trace = self.run().map(|run| json!({ "firings": self.firings(run), "loop_start": run.loop_start }));
+        let trace = self.run().map(|run| net_run::json(run, self.net));
         json!({ "name": self.name, "verdict": verdict, "reason": reason, "trace": trace })
     }
 }
