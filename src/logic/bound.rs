@@ -124,7 +124,7 @@ impl Bound {
         }
     }
 
-    /// Whether it holds in a state. `None` if it is temporal, so that one state does not tell.
+    /// Whether it holds in a state. `None` if one state does not tell, since a part that matters is temporal.
     pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
         Some(match self {
             Self::Truth(value) => *value,
@@ -134,9 +134,9 @@ impl Bound {
             Self::Deadlock => state.is_deadlock(),
             Self::Compare(comparison, left, right) => comparison.holds(left.value_in(state)?, right.value_in(state)?),
             Self::Not(f) => !f.holds_in(state)?,
-            Self::And(f, g) => f.holds_in(state)? & g.holds_in(state)?,
-            Self::Or(f, g) => f.holds_in(state)? | g.holds_in(state)?,
-            Self::Implies(f, g) => !f.holds_in(state)? | g.holds_in(state)?,
+            Self::And(f, g) => f.holds_in(state)? && g.holds_in(state)?,
+            Self::Or(f, g) => f.holds_in(state)? || g.holds_in(state)?,
+            Self::Implies(f, g) => !f.holds_in(state)? || g.holds_in(state)?,
             Self::Iff(f, g) => f.holds_in(state)? == g.holds_in(state)?,
             Self::Next(..) | Self::Until { .. } => return None,
         })

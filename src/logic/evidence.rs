@@ -262,6 +262,43 @@ pub fn lasso(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>, st
     Some(Lasso { states, loop_start })
 }
 
+/// States that [`near_lasso`] goes through.
+const NEAR: usize = 10_000;
+
+/// As [`lasso`] on all paths, but only if the path is found among the nearest states: one that comes back to a state on the
+/// shortest way to its own end, or ends where no step is left. Every step of the last state must be known.
+#[must_use]
+pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
+    let mut parents: FxHashMap<u32, (u32, usize)> = FxHashMap::from_iter([(state, (state, 0))]);
+    let mut queue = vec![state];
+    let mut next = 0;
+    let way = |parents: &FxHashMap<u32, (u32, usize)>, end: u32| {
+        let before = |&at: &u32| Some(parents[&at].0).filter(|&parent| parent != at);
+        let mut way: Vec<u32> = std::iter::successors(Some(end), before).collect();
+        way.reverse();
+        way
+    };
+    while let Some(&from) = queue.get(next) {
+        next += 1;
+        let depth = parents[&from].1;
+        if graph.row_of(from).is_some() && graph.successors(from).is_empty() {
+            return Some(Lasso { states: way(&parents, from)[1..].to_vec(), loop_start: None });
+        }
+        for &target in graph.successors(from).iter().filter(|&&target| within.contains(target as usize)) {
+            if let Some(&(_, above)) = parents.get(&target) {
+                let states = if above <= depth { way(&parents, from) } else { Vec::new() };
+                if states.get(above) == Some(&target) {
+                    return Some(Lasso { states: states[1..].to_vec(), loop_start: Some(above) });
+                }
+            } else if parents.len() < NEAR {
+                parents.insert(target, (from, depth + 1));
+                queue.push(target);
+            }
+        }
+    }
+    None
+}
+
 /// A shortest path inside a set to a state that satisfies `goal`, without its first state. With `leave`, the first state does
 /// not count as there already.
 #[must_use]

@@ -7,7 +7,7 @@ use fixedbitset::FixedBitSet;
 use super::paths::Paths;
 use super::replay::Played;
 use super::{Branch, Run};
-use crate::logic::{Dag, Labels, Node, NodeId, Quantifier, lasso, shortest};
+use crate::logic::{Dag, Labels, Node, NodeId, Quantifier, lasso, near_lasso, shortest};
 use crate::net::{Tokens, TransitionId};
 use crate::verdict::check::is_existential;
 
@@ -115,7 +115,10 @@ impl Teller<'_> {
     /// Goes on for ever, or to where no step is left, through states with the node that are within a set.
     fn go_round(&self, id: NodeId, within: &FixedBitSet, tale: &mut Tale) {
         let knot = tale.states.len() - 1;
-        let Some(lasso) = lasso(&self.paths.graph, within, None, tale.states[knot]) else { return };
+        let (graph, state) = (&self.paths.graph, tale.states[knot]);
+        let Some(lasso) = near_lasso(graph, within, state).or_else(|| lasso(graph, within, None, state)) else {
+            return;
+        };
         if !self.is_local(id) {
             self.branch(id, tale);
         }
