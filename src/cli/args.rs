@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+use petril::verdict::Examination;
 
 use super::meaning::{Meaning, Reading};
 
@@ -271,12 +272,16 @@ pub struct NetCheck {
     #[command(flatten)]
     pub on: OnNet,
     /// Properties in the contest's XML, with the ids of the PNML file. May be given several times.
-    #[arg(long, value_name = "XML", required_unless_present = "formula")]
+    #[arg(long, value_name = "XML", required_unless_present_any = ["formula", "examination"])]
     pub properties: Vec<PathBuf>,
+    /// A question that the contest asks about every net. May be given several times.
+    #[arg(long, value_name = "NAME", value_parser = examination)]
+    pub examination: Vec<Examination>,
     /// A formula over the names of the net, like `AG (tokens("buffer") <= 3)`, `EF enabled("t") & marked("p")`, `AG !at deadlock`.
     #[arg(short = 'r', long = "formula", value_name = "FORMULA")]
     pub formula: Vec<String>,
-    /// Print the firing sequence that shows an answer, where one can: as a list, or as the XML of TAPAAL.
+    /// Print the firing sequences that show an answer, where any can, and what holds on their way: as a list, or the first
+    /// one as the XML of TAPAAL.
     #[arg(long, value_name = "FORM", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "text")]
     pub trace: Option<TraceForm>,
 }
@@ -290,13 +295,19 @@ pub enum TraceForm {
     Tapaal,
 }
 
+/// An examination by its name.
+fn examination(name: &str) -> Result<Examination, String> {
+    let found = Examination::ALL.into_iter().find(|examination| examination.name().eq_ignore_ascii_case(name));
+    found.ok_or_else(|| format!("there are {}", Examination::ALL.map(Examination::name).join(", ")))
+}
+
 /// `petril net reduce`
 #[derive(Debug, clap::Args)]
 pub struct NetReduce {
     /// The net (.pnml or .net): any place/transition net, with weights and any number of tokens.
     #[arg(value_name = "MODEL")]
     pub model: PathBuf,
-    /// Where to write; the ending chooses the format: .pnml, .net (TINA), .dot.
+    /// Where to write; the ending chooses the format, as for `petril net convert`.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// A place whose tokens matter. May be given several times.

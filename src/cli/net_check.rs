@@ -17,7 +17,7 @@ use super::args::{NetCheck, TraceForm};
 use super::console::Console;
 use super::net_explore::threads;
 use super::progress::Watcher;
-use super::{Failure, Outcome, SUCCESS, input};
+use super::{Failure, Outcome, SUCCESS, input, net_run};
 
 pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let (located, _) = input::net(&arguments.on.model, console)?;
@@ -96,6 +96,10 @@ fn questions(
             Err(errors) => refuse(&errors, &source),
         }
     }
+    for examination in &arguments.examination {
+        names.push(examination.name().to_owned());
+        questions.push(examination.question());
+    }
     if failed { Err(Failure::Reported) } else { Ok((names, questions)) }
 }
 
@@ -121,10 +125,6 @@ impl Answer<'_> {
         }
     }
 
-    fn firings(&self, run: &Run) -> Vec<&str> {
-        run.firings.iter().map(|&id| self.located.net.transition(id).name).collect()
-    }
-
     fn text(&self, trace: Option<TraceForm>) -> String {
         let mut out = String::new();
         let word = match self.reply {
@@ -138,18 +138,15 @@ impl Answer<'_> {
             let _ = writeln!(out, "    {reason}");
         }
         let Some(run) = self.run() else { return out };
-        if trace == Some(TraceForm::Tapaal) {
-            let Located { net, ids, .. } = self.located;
-            let trace = tapaal::trace(net, ids.as_ref(), &run.firings, run.loop_start);
-            out += &trace.unwrap_or_else(|_| "    the trace takes too many tokens for TAPAAL's format\n".to_owned());
-        } else if trace == Some(TraceForm::Text) {
-            for (i, name) in self.firings(run).into_iter().enumerate() {
-                let again = if run.loop_start == Some(i) { "  (from here for ever)" } else { "" };
-                let _ = writeln!(out, "    {:>4}  {name}{again}", i + 1);
+        let Located { net, ids, .. } = self.located;
+        match trace {
+            Some(TraceForm::Tapaal) => {
+                let trace = tapaal::trace(net, ids.as_ref(), &run.firings, run.loop_start);
+                out +=
+                    &trace.unwrap_or_else(|_| "    the trace takes too many tokens for TAPAAL's format\n".to_owned());
             }
-            if run.firings.is_empty() {
-                out += "    the initial marking shows it\n";
-            }
+            Some(TraceForm::Text) => out += &net_run::text(run, net),
+            None => {}
         }
         out
     }
@@ -161,7 +158,7 @@ impl Answer<'_> {
             Reply::Most(most) => (json!(most), None),
             Reply::Unknown(reason) => (json!("unknown"), Some(reason)),
         };
-        let trace = self.run().map(|run| json!({ "firings": self.firings(run), "loop_start": run.loop_start }));
+        let trace = self.run().map(|run| net_run::json(run, &self.located.net));
         json!({ "name": self.name, "verdict": verdict, "reason": reason, "trace": trace })
     }
 }

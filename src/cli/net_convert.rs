@@ -15,12 +15,7 @@ use super::{Failure, Outcome, input, output};
 const MANY_FOR_GRAPHVIZ: usize = 2_000;
 
 pub fn run(arguments: &NetConvert, console: &Console) -> Outcome {
-    let format = Format::of(&arguments.output)?;
-    if format == Format::Svg {
-        let message = "an SVG picture is drawn of a program, by `petril translate`; of a net, write .dot, and let Graphviz \
-                       draw it: `dot -Tsvg`";
-        return Err(Failure::Message(message.to_owned()));
-    }
+    let format = format(&arguments.output)?;
     let (located, source) = input::net(&arguments.model, console)?;
     // Nothing points into the file any more; it may be large.
     drop(source);
@@ -29,6 +24,17 @@ pub fn run(arguments: &NetConvert, console: &Console) -> Outcome {
     write(&arguments.output, format, net, extras, console)?;
     let (places, transitions) = (net.places().len(), net.transitions().len());
     console.print(&format!("{}: {places} places, {transitions} transitions\n", arguments.output.display()))
+}
+
+/// The format that the name of a file asks for.
+pub fn format(path: &Path) -> Result<Format, Failure> {
+    let format = Format::of(path)?;
+    if format == Format::Svg {
+        let message = "an SVG picture is drawn of a program, by `petril translate`; of a net, write .dot, and let Graphviz \
+                       draw it: `dot -Tsvg`";
+        return Err(Failure::Message(message.to_owned()));
+    }
+    Ok(format)
 }
 
 /// Writes a net; only PNML takes all extras.

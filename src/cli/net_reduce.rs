@@ -1,30 +1,19 @@
 //! `petril net reduce`: a smaller net that answers the same question.
 
-use std::ffi::OsStr;
 use std::fmt::Write as _;
 
 use petril::diagnostic::nearest;
-use petril::exchange::{dot, pnml, tina};
+use petril::exchange::pnml::Extras;
 use petril::net::{Net, PlaceId, TransitionId};
 use petril::structure::reduce::{Keep, Property, Size, reduce};
 use serde_json::json;
 
 use super::args::{Kept, NetReduce};
 use super::console::Console;
-use super::{Failure, Outcome, input, output};
+use super::{Failure, Outcome, input, net_convert};
 
 pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
-    let extension = arguments.output.extension().and_then(OsStr::to_str).unwrap_or_default();
-    let write = match extension {
-        "pnml" => |net: &Net| pnml::write(net, None, None),
-        "net" => tina::write,
-        "dot" => dot::write,
-        _ => {
-            let output = arguments.output.display();
-            let message = format!("`{output}` says no format: its name must end with .pnml, .net (TINA) or .dot");
-            return Err(Failure::Message(message));
-        }
-    };
+    let format = net_convert::format(&arguments.output)?;
     let (located, _) = input::net(&arguments.model, console)?;
     let net = located.net;
     let property = match arguments.property {
@@ -34,7 +23,7 @@ pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
     };
     let reduced =
         reduce(&net, &Keep { property, places: places(&net, arguments)?, transitions: transitions(&net, arguments)? });
-    output::write(&arguments.output, &write(&reduced.net))?;
+    net_convert::write(&arguments.output, format, &reduced.net, Extras::default(), console)?;
     let (before, after) = (Size::of(&net), Size::of(&reduced.net));
     if arguments.json {
         let size = |size: Size| json!({ "places": size.places, "transitions": size.transitions, "arcs": size.arcs });

@@ -1,6 +1,7 @@
 //! Watching a search: figures on the terminal while it runs, and the limit of time.
 
 use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanBytes, HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -21,8 +22,11 @@ pub struct Watcher {
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
 
+/// Whether whoever started the program wants it to end.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
 impl Watcher {
-    /// Sets the number of threads, and begins to watch.
+    /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         if let Some(threads) = limits.threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
@@ -33,6 +37,12 @@ impl Watcher {
             Some(Ok(timeout)) => Some(timeout),
             None => None,
         };
+        // If nobody can be told, Ctrl-C ends the program as usual.
+        let _ = ctrlc::set_handler(|| {
+            if INTERRUPTED.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        });
         // Drawn on standard error, and only if that is a terminal.
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         bar.set_style(ProgressStyle::default_spinner());
@@ -60,6 +70,9 @@ impl Watcher {
                     HumanBytes(progress.bytes),
                 )
             });
+        }
+        if INTERRUPTED.load(Ordering::Relaxed) {
+            return Some("interrupted".to_owned());
         }
         let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
         Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))

@@ -34,14 +34,17 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The whole graph of states that are kept elsewhere: state 0 is the initial one, and
-    /// `targets[starts[s]..starts[s + 1]]` are the successors of state s. They are numbered by their distance from it.
+    /// The graph of states that are kept elsewhere: state 0 is the initial one, and `targets[starts[s]..starts[s + 1]]` are the
+    /// successors of state s. They are numbered by their distance from it.
+    ///
+    /// Unless the graph is the whole one, which `stop` says, a last state is added that stands for all that are not known, with the
+    /// number that targets give it.
     #[must_use]
-    pub fn of_rows(starts: Vec<u64>, targets: Vec<u32>) -> Self {
+    pub fn of_rows(starts: Vec<u64>, targets: Vec<u32>, stop: Stop) -> Self {
         let states = starts.len().saturating_sub(1) as u32;
-        let store = Store::elsewhere(states as usize);
+        let store = Store::elsewhere(states as usize + usize::from(stop != Stop::Complete));
         let (initial, row_of) = ((0..states.min(1)).collect(), (0..states).collect());
-        Self { store, initial, row_of, starts, targets, ..Self::empty(0) }
+        Self { store, initial, row_of, starts, targets, stop, ..Self::empty(0) }
     }
 
     /// No states yet, of this many words.

@@ -103,7 +103,28 @@ impl Bound {
         }
     }
 
-    /// Whether it holds in a state. `None` if it is temporal, so that one state does not tell.
+    /// Shows every place whose tokens it speaks of, as often as it does.
+    pub fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
+        match self {
+            Self::Truth(_) | Self::Variable(_) | Self::Enabled(_) | Self::Deadlock => {}
+            Self::Marked(place) => visit(*place),
+            Self::Compare(_, left, right) => {
+                left.for_each_place(visit);
+                right.for_each_place(visit);
+            }
+            Self::Not(f) | Self::Next(_, f) => f.for_each_place(visit),
+            Self::And(f, g)
+            | Self::Or(f, g)
+            | Self::Implies(f, g)
+            | Self::Iff(f, g)
+            | Self::Until { hold: f, release: g, .. } => {
+                f.for_each_place(visit);
+                g.for_each_place(visit);
+            }
+        }
+    }
+
+    /// Whether it holds in a state. `None` if one state does not tell, since a part that matters is temporal.
     pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
         Some(match self {
             Self::Truth(value) => *value,
@@ -113,9 +134,9 @@ impl Bound {
             Self::Deadlock => state.is_deadlock(),
             Self::Compare(comparison, left, right) => comparison.holds(left.value_in(state)?, right.value_in(state)?),
             Self::Not(f) => !f.holds_in(state)?,
-            Self::And(f, g) => f.holds_in(state)? & g.holds_in(state)?,
-            Self::Or(f, g) => f.holds_in(state)? | g.holds_in(state)?,
-            Self::Implies(f, g) => !f.holds_in(state)? | g.holds_in(state)?,
+            Self::And(f, g) => f.holds_in(state)? && g.holds_in(state)?,
+            Self::Or(f, g) => f.holds_in(state)? || g.holds_in(state)?,
+            Self::Implies(f, g) => !f.holds_in(state)? || g.holds_in(state)?,
             Self::Iff(f, g) => f.holds_in(state)? == g.holds_in(state)?,
             Self::Next(..) | Self::Until { .. } => return None,
         })
@@ -136,6 +157,19 @@ impl Term {
             Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
             Self::Product(a, b) => a.value_in(state)? * b.value_in(state)?,
         })
+    }
+
+    fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
+        match self {
+            Self::Number(_) | Self::Variable(..) => {}
+            Self::Bits { places, .. } => places.iter().for_each(|&(place, _)| visit(place)),
+            Self::Tokens(place) => visit(*place),
+            Self::Truth(f) => f.for_each_place(visit),
+            Self::Sum(a, b) | Self::Difference(a, b) | Self::Product(a, b) => {
+                a.for_each_place(visit);
+                b.for_each_place(visit);
+            }
+        }
     }
 
     /// A bound of its absolute value; `None` if it is beyond what `i128` holds, with room for one more operation.

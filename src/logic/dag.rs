@@ -14,11 +14,6 @@ use super::formula::Quantifier;
 pub struct NodeId(usize);
 
 impl NodeId {
-    /// The node at a position.
-    pub(super) fn at(position: usize) -> Self {
-        Self(position)
-    }
-
     /// The position.
     #[must_use]
     pub fn index(self) -> usize {
@@ -65,6 +60,25 @@ impl Dag {
     #[must_use]
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0]
+    }
+
+    /// The formula that a node stands for.
+    #[must_use]
+    pub fn formula(&self, id: NodeId) -> Bound {
+        let part = |id: &NodeId| Box::new(self.formula(*id));
+        let until = |quantifier: &Quantifier, weak, f, g| {
+            let (hold, release) = (part(f), part(g));
+            Bound::Until { quantifier: *quantifier, weak, hold, release }
+        };
+        match self.node(id) {
+            Node::State { formula, negated: false } => formula.clone(),
+            Node::State { formula, negated: true } => Bound::Not(Box::new(formula.clone())),
+            Node::And(f, g) => Bound::And(part(f), part(g)),
+            Node::Or(f, g) => Bound::Or(part(f), part(g)),
+            Node::Next(quantifier, f) => Bound::Next(*quantifier, part(f)),
+            Node::Until(quantifier, f, g) => until(quantifier, false, f, g),
+            Node::WeakUntil(quantifier, f, g) => until(quantifier, true, f, g),
+        }
     }
 
     /// Adds a formula, or its negation.

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use fixedbitset::FixedBitSet;
+use rustc_hash::FxHashMap;
 
 use super::dag::{Dag, Node, NodeId};
 use super::formula::Quantifier;
@@ -212,28 +213,11 @@ impl Explainer<'_> {
 
     /// Goes through states with f round a cycle, or to where paths end.
     fn lasso(&mut self, f: NodeId, state: u32) {
-        let within = self.labels.of(f);
-        let endings = endings(self.graph, within, self.fair);
-        let Some(stem) = shortest(self.graph, state, within, false, |s| endings.contains(s as usize)) else { return };
+        let Some(lasso) = lasso(self.graph, self.labels.of(f), self.fair, state) else { return };
         self.claim(f);
-        self.walk(f, &stem);
-        let knot = stem.last().copied().unwrap_or(state);
-        let loop_start = self.evidence.states.len() - 1;
-        let components = components(self.graph, within);
-        if !components.on_cycle(knot) {
-            return;
-        }
-        // The cycle: to a fair state first where one is asked for, then back to the knot.
-        let part = components.of[knot as usize];
-        let mut inside = FixedBitSet::with_capacity(self.graph.len());
-        within.ones().filter(|&s| components.of[s] == part).for_each(|s| inside.insert(s));
-        let is_fair = |s: u32| self.fair.is_none_or(|fair| fair.contains(s as usize));
-        let out = shortest(self.graph, knot, &inside, false, is_fair).unwrap_or_default();
-        let turn = out.last().copied().unwrap_or(knot);
-        let back = shortest(self.graph, turn, &inside, true, |s| s == knot).unwrap_or_default();
-        self.walk(f, &out);
-        self.walk(f, &back[..back.len().saturating_sub(1)]);
-        self.evidence.loop_start = Some(loop_start);
+        let knot = self.evidence.states.len() - 1;
+        self.walk(f, &lasso.states);
+        self.evidence.loop_start = lasso.loop_start.map(|start| knot + start);
     }
 
     /// Appends states to the path, all with f.
@@ -245,9 +229,80 @@ impl Explainer<'_> {
     }
 }
 
+/// A path without end, or one that ends where no step is left.
+pub struct Lasso {
+    /// Its states without the first one.
+    pub states: Vec<u32>,
+    /// How many steps lead to the state that the last one steps back to.
+    pub loop_start: Option<usize>,
+}
+
+/// A path inside a set that goes round a cycle (through a fair state, if fairness is asked for), or to where paths end: a
+/// shortest way there, and a shortest cycle from there.
+#[must_use]
+pub fn lasso(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>, state: u32) -> Option<Lasso> {
+    let endings = endings(graph, within, fair);
+    let mut states = shortest(graph, state, within, false, |s| endings.contains(s as usize))?;
+    let knot = states.last().copied().unwrap_or(state);
+    let components = components(graph, within);
+    if !components.on_cycle(knot) {
+        return Some(Lasso { states, loop_start: None });
+    }
+    // The cycle: to a fair state first where one is asked for, then back to the knot.
+    let loop_start = Some(states.len());
+    let part = components.of[knot as usize];
+    let mut inside = FixedBitSet::with_capacity(graph.len());
+    within.ones().filter(|&s| components.of[s] == part).for_each(|s| inside.insert(s));
+    let is_fair = |s: u32| fair.is_none_or(|fair| fair.contains(s as usize));
+    let out = shortest(graph, knot, &inside, false, is_fair).unwrap_or_default();
+    let turn = out.last().copied().unwrap_or(knot);
+    let back = shortest(graph, turn, &inside, true, |s| s == knot).unwrap_or_default();
+    states.extend_from_slice(&out);
+    states.extend_from_slice(&back[..back.len().saturating_sub(1)]);
+    Some(Lasso { states, loop_start })
+}
+
+/// States that [`near_lasso`] goes through.
+const NEAR: usize = 10_000;
+
+/// As [`lasso`] on all paths, but only if the path is found among the nearest states: one that comes back to a state on the
+/// shortest way to its own end, or ends where no step is left. Every step of the last state must be known.
+#[must_use]
+pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
+    let mut parents: FxHashMap<u32, (u32, usize)> = FxHashMap::from_iter([(state, (state, 0))]);
+    let mut queue = vec![state];
+    let mut next = 0;
+    let way = |parents: &FxHashMap<u32, (u32, usize)>, end: u32| {
+        let before = |&at: &u32| Some(parents[&at].0).filter(|&parent| parent != at);
+        let mut way: Vec<u32> = std::iter::successors(Some(end), before).collect();
+        way.reverse();
+        way
+    };
+    while let Some(&from) = queue.get(next) {
+        next += 1;
+        let depth = parents[&from].1;
+        if graph.row_of(from).is_some() && graph.successors(from).is_empty() {
+            return Some(Lasso { states: way(&parents, from)[1..].to_vec(), loop_start: None });
+        }
+        for &target in graph.successors(from).iter().filter(|&&target| within.contains(target as usize)) {
+            if let Some(&(_, above)) = parents.get(&target) {
+                let states = if above <= depth { way(&parents, from) } else { Vec::new() };
+                if states.get(above) == Some(&target) {
+                    return Some(Lasso { states: states[1..].to_vec(), loop_start: Some(above) });
+                }
+            } else if parents.len() < NEAR {
+                parents.insert(target, (from, depth + 1));
+                queue.push(target);
+            }
+        }
+    }
+    None
+}
+
 /// A shortest path inside a set to a state that satisfies `goal`, without its first state. With `leave`, the first state does
 /// not count as there already.
-fn shortest(
+#[must_use]
+pub fn shortest(
     graph: &Graph,
     from: u32,
     within: &FixedBitSet,
@@ -257,7 +312,7 @@ fn shortest(
     if !leave && goal(from) {
         return Some(Vec::new());
     }
-    let mut parents: BTreeMap<u32, u32> = BTreeMap::new();
+    let mut parents: FxHashMap<u32, u32> = FxHashMap::default();
     let mut gone = FixedBitSet::with_capacity(graph.rows());
     let mut queue = vec![from];
     let mut next = 0;

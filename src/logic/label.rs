@@ -1,9 +1,10 @@
-//! Which states satisfy which node, by the classical fixpoints on sets of states (Clarke, Emerson and Sistla 1986), each in
-//! time linear in the graph, where a row that many states share is gone through once.
+//! Which states satisfy which node, by the classical fixpoints on sets of states (Clarke, Emerson and Sistla 1986).
 //!
 //! A path ends only in a state without steps; there X g is true under A and false under E, and W needs nothing more. Where a
 //! graph is not complete, a state is in a set only if the node holds whatever the missing steps are. So a formula holds if
 //! the initial states are in its set, is violated if one of them is in the set of its negation, and is undecided otherwise.
+
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
@@ -11,6 +12,7 @@ use rayon::prelude::*;
 use super::bound::Bound;
 use super::dag::{Dag, Node, NodeId};
 use super::formula::Quantifier;
+use super::sweep::grow;
 use crate::explore::{Graph, components};
 
 /// The states that satisfy each node of a [`Dag`].
@@ -34,41 +36,23 @@ pub fn label(
     holds: &(dyn Fn(&Bound, u32) -> bool + Sync),
     fair: Option<&FixedBitSet>,
 ) -> Labels {
-    label_from(graph, dag, &mut |_, formula| set_where(graph.len(), |state| holds(formula, state)), fair)
+    let holding = |formula: &Bound, negated| set_where(graph.len(), |state| holds(formula, state) != negated);
+    let mut sets = Vec::with_capacity(dag.nodes().len());
+    Labeller { graph, open: &graph.open(), fair, stopping: &AtomicBool::new(false) }.label(dag, &holding, &mut sets);
+    Labels { sets }
 }
 
-/// As [`label`], where `holding` gives the states in which a formula about one state holds, that of a node.
+/// As [`label`] on all paths, where `holding` gives the states in which a formula about one state holds, or its negation if the
+/// second argument says so. Nothing if `stopping` is set meanwhile.
 pub fn label_from(
     graph: &Graph,
     dag: &Dag,
-    holding: &mut dyn FnMut(NodeId, &Bound) -> FixedBitSet,
-    fair: Option<&FixedBitSet>,
-) -> Labels {
-    let open = graph.open();
-    let labeller = Labeller { graph, open: &open, fair };
-    let mut sets: Vec<FixedBitSet> = Vec::with_capacity(dag.nodes().len());
-    for (position, node) in dag.nodes().iter().enumerate() {
-        let set = |id: &NodeId| &sets[id.index()];
-        let labelled = match node {
-            Node::State { formula, negated } => {
-                let mut states = holding(NodeId::at(position), formula);
-                if *negated {
-                    states.toggle_range(..);
-                }
-                states
-            }
-            Node::And(f, g) => set(f) & set(g),
-            Node::Or(f, g) => set(f) | set(g),
-            Node::Next(Quantifier::Some, f) => labeller.exists_next(set(f)),
-            Node::Next(Quantifier::All, f) => labeller.all_next(set(f)),
-            Node::Until(Quantifier::Some, f, g) => labeller.exists_until(set(f), set(g)),
-            Node::Until(Quantifier::All, f, g) => labeller.all_until(set(f), set(g)),
-            Node::WeakUntil(Quantifier::Some, f, g) => labeller.exists_weak_until(set(f), set(g)),
-            Node::WeakUntil(Quantifier::All, f, g) => labeller.all_weak_until(set(f), set(g)),
-        };
-        sets.push(labelled);
-    }
-    Labels { sets }
+    holding: &dyn Fn(&Bound, bool) -> FixedBitSet,
+    stopping: &AtomicBool,
+) -> Option<Labels> {
+    let mut sets = Vec::with_capacity(dag.nodes().len());
+    Labeller { graph, open: &graph.open(), fair: None, stopping }.label(dag, holding, &mut sets);
+    (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
 }
 
 /// The states from which a path stays in `within` and goes round for ever: those on a cycle inside it (through a fair state,
@@ -96,17 +80,27 @@ struct Labeller<'a> {
     graph: &'a Graph,
     open: &'a FixedBitSet,
     fair: Option<&'a FixedBitSet>,
+    /// Once it is set, nobody wants the sets any more.
+    stopping: &'a AtomicBool,
 }
 
 impl Labeller<'_> {
-    fn states_where(&self, test: impl Fn(u32) -> bool + Sync) -> FixedBitSet {
-        set_where(self.graph.len(), test)
-    }
-
-    fn complement(&self, set: &FixedBitSet) -> FixedBitSet {
-        let mut complement = set.clone();
-        complement.toggle_range(..);
-        complement
+    fn label(&self, dag: &Dag, holding: &dyn Fn(&Bound, bool) -> FixedBitSet, sets: &mut Vec<FixedBitSet>) {
+        for node in dag.nodes() {
+            let set = |id: &NodeId| &sets[id.index()];
+            let labelled = match node {
+                Node::State { formula, negated } => holding(formula, *negated),
+                Node::And(f, g) => set(f) & set(g),
+                Node::Or(f, g) => set(f) | set(g),
+                Node::Next(Quantifier::Some, f) => self.exists_next(set(f)),
+                Node::Next(Quantifier::All, f) => self.all_next(set(f)),
+                Node::Until(Quantifier::Some, f, g) => self.exists_until(set(f), set(g)),
+                Node::Until(Quantifier::All, f, g) => self.all_until(set(f), set(g)),
+                Node::WeakUntil(Quantifier::Some, f, g) => self.exists_weak_until(set(f), set(g)),
+                Node::WeakUntil(Quantifier::All, f, g) => self.all_weak_until(set(f), set(g)),
+            };
+            sets.push(labelled);
+        }
     }
 
     /// The rows that satisfy a test.
@@ -116,74 +110,70 @@ impl Labeller<'_> {
 
     fn exists_next(&self, f: &FixedBitSet) -> FixedBitSet {
         let rows = self.rows_where(|row| row.iter().any(|&next| f.contains(next as usize)));
-        self.states_where(|state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize)))
+        let some = |state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize));
+        set_where(self.graph.len(), some)
     }
 
     fn all_next(&self, f: &FixedBitSet) -> FixedBitSet {
         let rows = self.rows_where(|row| row.iter().all(|&next| f.contains(next as usize)));
         let all = |state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize));
-        self.states_where(|state| !self.open.contains(state as usize) && all(state))
+        set_where(self.graph.len(), |state| !self.open.contains(state as usize) && all(state))
     }
 
     fn exists_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
-        let mut set = g.clone();
-        let mut reaching = FixedBitSet::with_capacity(self.graph.rows());
-        let mut work: Vec<u32> = g.ones().map(|state| state as u32).collect();
-        while let Some(state) = work.pop() {
-            for &row in self.graph.rows_to(state) {
-                if reaching.put(row as usize) {
-                    continue;
-                }
-                let members = self.graph.members(row).iter().copied();
-                work.extend(members.filter(|&before| f.contains(before as usize) && !set.put(before as usize)));
-            }
-        }
-        set
+        let some = |set: &FixedBitSet, row: &[u32]| row.iter().any(|&next| set.contains(next as usize));
+        grow(self.graph, g.clone(), f, self.stopping, &|set, state| some(set, self.graph.successors(state)))
+    }
+
+    /// Adds the states of `within` whose steps all lead into the set, at least one of which there is; and it need not be known.
+    fn forced(&self, set: FixedBitSet, within: &FixedBitSet) -> FixedBitSet {
+        grow(self.graph, set, within, self.stopping, &|set, state| {
+            let row = self.graph.successors(state);
+            let all = row.iter().all(|&next| set.contains(next as usize));
+            all && (!row.is_empty() || self.open.contains(state as usize))
+        })
     }
 
     fn all_weak_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
         // A[f W g] = ¬E[¬g U ¬(f ∨ g)], an unknown step being as bad as one to a state without f and g.
-        let not_g = self.complement(g);
-        let mut bad = self.complement(&(f | g));
+        let not_g = complement(g);
+        let mut bad = complement(&(f | g));
         bad.union_with(&(self.open & &not_g));
-        self.complement(&self.exists_until(&not_g, &bad))
+        complement(&self.exists_until(&not_g, &bad))
     }
 
     fn all_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
         // Under fairness, A[f U g] = ¬E[¬g W ¬f ∧ ¬g]; the complement needs all steps. Without them, the set for all paths
         // serves: what holds on all paths holds on the fair ones.
         if self.fair.is_some() && self.graph.is_complete() {
-            let not_g = self.complement(g);
-            let neither = self.complement(&(f | g));
-            return self.complement(&self.exists_weak_until(&not_g, &neither));
+            let not_g = complement(g);
+            let neither = complement(&(f | g));
+            return complement(&self.exists_weak_until(&not_g, &neither));
         }
-        let mut set = g.clone();
-        let rows = 0..self.graph.rows() as u32;
-        let mut missing: Vec<usize> = rows.map(|row| self.graph.row(row).len()).collect();
-        let mut work: Vec<u32> = g.ones().map(|state| state as u32).collect();
-        while let Some(state) = work.pop() {
-            for &row in self.graph.rows_to(state) {
-                missing[row as usize] -= 1;
-                if missing[row as usize] > 0 {
-                    continue;
-                }
-                for &before in self.graph.members(row) {
-                    let b = before as usize;
-                    if f.contains(b) && !self.open.contains(b) && !set.put(b) {
-                        work.push(before);
-                    }
-                }
-            }
-        }
-        set
+        let mut within = f.clone();
+        within.difference_with(self.open);
+        self.forced(g.clone(), &within)
     }
 
     fn exists_weak_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
-        // E[f W g] = E[f U g ∨ "f on a path that never leaves f"].
-        let mut goal = endings(self.graph, f, self.fair);
-        goal.union_with(g);
-        self.exists_until(f, &goal)
+        if self.fair.is_some() {
+            // E[f W g] = E[f U g ∨ "f on a fair path that never leaves f"].
+            let mut goal = endings(self.graph, f, self.fair);
+            goal.union_with(g);
+            return self.exists_until(f, &goal);
+        }
+        // The states that are not in it: without f and g, or with f and no way but to such states.
+        let neither = complement(&(f | g));
+        let mut within = f.clone();
+        within.difference_with(g);
+        complement(&self.forced(neither, &within))
     }
+}
+
+fn complement(set: &FixedBitSet) -> FixedBitSet {
+    let mut complement = set.clone();
+    complement.toggle_range(..);
+    complement
 }
 
 /// The numbers below `n` that satisfy a test, computed on all processors.

@@ -1,9 +1,12 @@
 //! What the reachability graph of a net says of its behaviour: deadlocks, dead transitions, live.
 
+use std::sync::atomic::AtomicBool;
+
 use fixedbitset::FixedBitSet;
 
 use super::exploration::Exploration;
 use super::graph::Steps;
+use crate::explore::budget::Stop;
 use crate::explore::tarjan::tarjan;
 use crate::net::TransitionId;
 
@@ -25,30 +28,33 @@ impl Exploration {
         let dead: Vec<TransitionId> = self.figures.never_enabled.iter().map(|&id| TransitionId::at(id)).collect();
         let transitions = self.machine.transitions;
         let alive = transitions - dead.len();
-        let steps = self.steps(true)?;
+        if self.stop != Stop::Complete {
+            return None;
+        }
+        let steps = self.steps(&AtomicBool::new(false))?;
         // A deadlock fires nothing for ever.
         let live_without_dead =
-            if self.figures.deadlocks > 0 { alive == 0 } else { fires_everywhere(&steps, transitions, alive) };
+            if self.figures.deadlocks > 0 { alive == 0 } else { self.fires_everywhere(&steps, transitions, alive) };
         Some(Behaviour { deadlocks: self.figures.deadlocks, dead, live_without_dead })
     }
-}
 
-/// Whether so many transitions fire in each component that no step leaves.
-fn fires_everywhere(steps: &Steps, transitions: usize, alive: usize) -> bool {
-    let mut all = FixedBitSet::with_capacity(steps.states());
-    all.insert_range(..);
-    let (component, count) = tarjan(steps.states(), &all, |state| steps.successors(state));
-    let mut is_bottom = vec![true; count];
-    for state in 0..steps.states() as u32 {
-        let own = component[state as usize];
-        is_bottom[own as usize] &= steps.successors(state).iter().all(|&next| component[next as usize] == own);
+    /// Whether so many transitions fire in each component that no step leaves.
+    fn fires_everywhere(&self, steps: &Steps, transitions: usize, alive: usize) -> bool {
+        let mut all = FixedBitSet::with_capacity(steps.states());
+        all.insert_range(..);
+        let (component, count) = tarjan(steps.states(), &all, |state| steps.successors(state));
+        let mut is_left = vec![false; count];
+        for state in 0..steps.states() as u32 {
+            let own = component[state as usize];
+            is_left[own as usize] |= steps.successors(state).iter().any(|&next| component[next as usize] != own);
+        }
+        let bottom: Vec<usize> = (0..count).filter(|&component| !is_left[component]).collect();
+        let mut fired = FixedBitSet::with_capacity(bottom.len() * transitions);
+        self.for_each_state(|state, view| {
+            if let Ok(row) = bottom.binary_search(&(component[state as usize] as usize)) {
+                view.enabled().for_each(|transition| fired.insert(row * transitions + transition));
+            }
+        });
+        (0..bottom.len()).all(|row| fired.count_ones(row * transitions..(row + 1) * transitions) == alive)
     }
-    let mut states: Vec<u32> =
-        (0..steps.states() as u32).filter(|&state| is_bottom[component[state as usize] as usize]).collect();
-    states.sort_unstable_by_key(|&state| component[state as usize]);
-    states.chunk_by(|&a, &b| component[a as usize] == component[b as usize]).all(|states| {
-        let mut fired = FixedBitSet::with_capacity(transitions);
-        states.iter().flat_map(|&state| steps.fired(state)).for_each(|&id| fired.insert(id as usize));
-        fired.count_ones(..) == alive
-    })
 }

@@ -7,6 +7,7 @@
 //! changes one word looks up only the nodes above it.
 
 use super::intern::Interner;
+use super::machine::Changes;
 
 /// The tables of all nodes but the root.
 pub(super) struct Fold {
@@ -92,6 +93,18 @@ impl Fold {
             numbers.push(self.tables[node].find(pair(numbers[left], numbers[right]))?);
         }
         Some(self.root(&numbers))
+    }
+
+    /// The key of a marking, if its parts were met before: `numbers` are those of a marking that differs by `changes`.
+    pub(super) fn find_after(&self, words: &[u64], changes: &Changes, numbers: &mut [u32]) -> Option<u64> {
+        for &(leaf, _) in &changes.words {
+            numbers[leaf] = self.tables[leaf].find(words[leaf])?;
+        }
+        for &node in &changes.above {
+            let (left, right) = self.children[node - self.leaves];
+            numbers[node] = self.tables[node].find(pair(numbers[left], numbers[right]))?;
+        }
+        Some(self.root(numbers))
     }
 
     /// The words of a key, and the numbers of its nodes.

@@ -1,16 +1,20 @@
 //! The reachability graph in compressed rows, made from kept states.
 
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
 use super::exploration::Exploration;
 use super::index::Index;
-use super::shard::{Shard, owner};
-use super::view::View;
+use super::numbering::Stretch;
+use super::shard::owner;
 
-/// Every step between the states of an exploration. States are numbered from 0, the initial one, in the order of their
+/// The steps between the states of an exploration. States are numbered from 0, the initial one, in the order of their
 /// distances from it. The numbers depend on the number of threads.
 pub struct Steps {
     starts: Vec<u64>,
     targets: Vec<u32>,
-    fired: Vec<u32>,
 }
 
 impl Steps {
@@ -20,109 +24,110 @@ impl Steps {
         self.starts.len() - 1
     }
 
-    /// Where the successors of each state begin, and last where they end; the successors of all states, one state after another;
-    /// and the transitions that lead to them.
+    /// Where the successors of each state begin, and last where they end; and the successors of all states, one state after
+    /// another.
     #[must_use]
-    pub fn into_parts(self) -> (Vec<u64>, Vec<u32>, Vec<u32>) {
-        (self.starts, self.targets, self.fired)
+    pub fn into_parts(self) -> (Vec<u64>, Vec<u32>) {
+        (self.starts, self.targets)
     }
 
-    /// The successors of a state, one for each transition it enables.
+    /// The successors of a state, one for each transition it enables, in their order. The number of states stands for a
+    /// successor that was not kept.
     #[must_use]
     pub fn successors(&self, state: u32) -> &[u32] {
         &self.targets[self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize]
-    }
-
-    /// The transitions that lead to the successors, in the same order; empty if they were not asked for.
-    #[must_use]
-    pub fn fired(&self, state: u32) -> &[u32] {
-        let row = self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize;
-        self.fired.get(row).unwrap_or_default()
     }
 }
 
 /// Steps whose targets are looked up together.
 const TOGETHER: usize = 256;
 
-impl Exploration {
-    /// Shows every state kept, by number.
-    pub fn for_each_state(&self, mut visit: impl FnMut(u32, &View<'_>)) {
-        let machine = &self.machine;
-        let (mut words, mut enabled) = (vec![0; machine.packing.words()], vec![0; machine.width]);
-        let mut id = 0;
-        for (shard, range) in self.runs() {
-            let shard = &self.shards[shard];
-            let mut numbers = shard.numbers();
-            for position in range {
-                shard.unpack(position, &mut words, &mut numbers);
-                machine.enabled.put(&words, &mut enabled);
-                visit(id, &View { packing: &machine.packing, words: &words, enabled: &enabled });
-                id += 1;
-            }
-        }
-    }
+/// States whose steps are found by one thread at a time.
+const BLOCK: usize = 1 << 13;
 
-    /// All steps, with the transitions fired if asked for. Nothing if states were not kept, or not all of them are known.
+impl Exploration {
+    /// All steps of the states kept, found on all processors. Nothing if there are no states, or too many to be numbered, or
+    /// `stopping` is set meanwhile.
     #[must_use]
-    pub fn steps(&self, with_transitions: bool) -> Option<Steps> {
-        let states = self.figures.states;
-        if self.shards.is_empty() || self.figures.expanded < states || states > u64::from(u32::MAX) {
+    pub fn steps(&self, stopping: &AtomicBool) -> Option<Steps> {
+        let states = self.kept();
+        if states == 0 || states >= u32::MAX as usize {
             return None;
         }
-        let indices = self.indices();
-        let mut steps = Steps { starts: vec![0], targets: Vec::new(), fired: Vec::new() };
-        steps.targets.reserve_exact(self.figures.transitions as usize);
-        let mut found: Vec<Vec<(u64, usize)>> = vec![Vec::new(); self.shards.len()];
-        let mut after = vec![0; self.machine.packing.words()];
-        let mut keys = Vec::new();
-        self.for_each_state(|_, view| {
-            for transition in view.enabled() {
-                after.copy_from_slice(view.words);
-                self.machine.fire(transition, &mut after);
-                let owner = owner(&after, self.shards.len());
-                let at = steps.targets.len();
-                steps.targets.push(u32::MAX);
-                if with_transitions {
-                    steps.fired.push(transition as u32);
-                }
-                if let Some(key) = self.shards[owner].key(&after) {
-                    found[owner].push((key, at));
-                }
-                if found[owner].len() == TOGETHER {
-                    resolve(&indices[owner], &mut found[owner], &mut keys, &mut steps.targets);
-                }
-            }
-            steps.starts.push(steps.targets.len() as u64);
+        let stretches = self.stretches();
+        let mut starts = vec![0; states + 1];
+        starts[1..].par_chunks_mut(BLOCK).enumerate().for_each(|(block, counts)| {
+            let first = (block * BLOCK) as u32;
+            self.visit(&stretches, first..first + counts.len() as u32, |number, _, view, _| {
+                counts[(number - first) as usize] = view.enabled.iter().map(|word| u64::from(word.count_ones())).sum();
+            });
         });
-        for (index, found) in indices.iter().zip(&mut found) {
-            resolve(index, found, &mut keys, &mut steps.targets);
+        for state in 0..states {
+            starts[state + 1] += starts[state];
         }
-        Some(steps)
+        let indices = self.indices(&stretches);
+        let mut targets = vec![0; starts[states] as usize];
+        let mut blocks = Vec::with_capacity(states.div_ceil(BLOCK));
+        let mut rest = &mut targets[..];
+        for first in (0..states).step_by(BLOCK) {
+            let end = states.min(first + BLOCK);
+            let (block, more) = std::mem::take(&mut rest).split_at_mut((starts[end] - starts[first]) as usize);
+            blocks.push((first as u32..end as u32, block));
+            rest = more;
+        }
+        blocks.into_par_iter().for_each(|(numbers, targets)| {
+            if !stopping.load(Ordering::Relaxed) {
+                self.steps_of(numbers, &stretches, &indices, targets);
+            }
+        });
+        (!stopping.load(Ordering::Relaxed)).then_some(Steps { starts, targets })
     }
 
-    /// Which positions of which shards the states have, in the order of their numbers.
-    fn runs(&self) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {
-        let levels = self.shards.first().map_or(0, |shard| shard.levels.len());
-        let run = move |level| self.shards.iter().map(move |shard| shard.level(level)).enumerate();
-        (0..=levels).flat_map(run)
+    /// Puts the successors of some states into `targets`.
+    fn steps_of(&self, numbers: Range<u32>, stretches: &[Stretch], indices: &[Index], targets: &mut [u32]) {
+        let machine = &self.machine;
+        let mut found: Vec<Vec<(u64, usize)>> = vec![Vec::with_capacity(TOGETHER); self.shards.len()];
+        let mut after = vec![0; machine.packing.words()];
+        let mut keys = Vec::with_capacity(TOGETHER);
+        let mut nodes_after = Vec::new();
+        let mut at = 0;
+        targets.fill(self.kept() as u32);
+        self.visit(stretches, numbers, |_, shard, view, nodes| {
+            for transition in view.enabled() {
+                after.copy_from_slice(view.words);
+                machine.fire(transition, &mut after);
+                let owner = owner(&after, self.shards.len());
+                let key = if owner == shard {
+                    self.shards[owner].key_after(&after, machine.changes.get(transition), nodes, &mut nodes_after)
+                } else {
+                    self.shards[owner].key(&after)
+                };
+                if let Some(key) = key {
+                    found[owner].push((key, at));
+                }
+                at += 1;
+                if found[owner].len() == TOGETHER {
+                    resolve(&indices[owner], &mut found[owner], &mut keys, targets);
+                }
+            }
+        });
+        for (index, found) in indices.iter().zip(&mut found) {
+            resolve(index, found, &mut keys, targets);
+        }
     }
 
     /// For each shard the numbers of its keys.
-    fn indices(&self) -> Vec<Index> {
-        let index = |(number, shard): (usize, &Shard)| {
-            Index::of(shard.bits(), shard.len(), &|add| {
-                let mut id = 0;
-                for (owner, range) in self.runs() {
-                    for position in range {
-                        if owner == number {
-                            add(shard.narrow_key(position), id);
-                        }
-                        id += 1;
-                    }
+    fn indices(&self, stretches: &[Stretch]) -> Vec<Index> {
+        let index = |shard: usize| {
+            let states = &self.shards[shard];
+            Index::of(states.bits(), states.len(), &|add| {
+                for stretch in stretches.iter().filter(|stretch| stretch.shard == shard) {
+                    let positions = stretch.positions.clone();
+                    positions.zip(stretch.first..).for_each(|(at, number)| add(states.narrow_key(at), number));
                 }
             })
         };
-        self.shards.iter().enumerate().map(index).collect()
+        (0..self.shards.len()).into_par_iter().map(index).collect()
     }
 }
 

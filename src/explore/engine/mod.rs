@@ -20,6 +20,7 @@ mod keys;
 mod lines;
 mod machine;
 mod model;
+mod numbering;
 mod packing;
 mod rows;
 mod scramble;

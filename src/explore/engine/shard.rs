@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::fold::Fold;
 use super::keys::Keys;
-use super::machine::Machine;
+use super::machine::{Changes, Machine};
 use super::tally::Seen;
 use super::view::View;
 
@@ -343,6 +343,21 @@ impl Shard {
     /// The key of a marking, if its parts were met before.
     pub(super) fn key(&self, words: &[u64]) -> Option<u64> {
         self.fold.as_ref().map_or(Some(words[0]), |fold| fold.find(words).map(|key| narrow(key, self.halves)))
+    }
+
+    /// The key of the marking after a firing in a marking of this shard whose nodes have these numbers, if its parts were met
+    /// before. `room` is memory used again and again.
+    pub(super) fn key_after(
+        &self,
+        words: &[u64],
+        changes: Option<&Changes>,
+        numbers: &[u32],
+        room: &mut Vec<u32>,
+    ) -> Option<u64> {
+        let (Some(fold), Some(changes)) = (&self.fold, changes) else { return Some(words[0]) };
+        room.clear();
+        room.extend_from_slice(numbers);
+        fold.find_after(words, changes, room).map(|key| narrow(key, self.halves))
     }
 
     /// The key of a kept state.

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::replay::{Played, refuted, replayed};
-use super::{Question, Reply, Run};
+use super::{Examination, Question, Reply, Run};
 use crate::explore::engine::{Exploration, Model, Options, View, explore};
 use crate::explore::{Progress, Stop};
 use crate::logic::{Bound, Quantifier, Valuation};
@@ -17,7 +17,9 @@ pub(super) enum Hunt<'q> {
     Goal(Goal<'q>),
     /// The most tokens.
     Most(Most<'q>),
-    /// Nothing: states alone do not tell.
+    /// Nothing: the figures tell, or the graph.
+    Whole(Examination),
+    /// Nothing: only the graph tells.
     Paths(&'q Bound),
 }
 
@@ -39,14 +41,14 @@ pub(super) struct Most<'q> {
 /// Explores a net, and looks at each state for every hunt, until nothing more is looked for.
 pub(super) fn search(
     net: &Net,
-    hunts: &[Hunt<'_>],
+    hunts: &[&Hunt<'_>],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Exploration {
     let may_stop = hunts.iter().all(|hunt| matches!(hunt, Hunt::Goal(_)));
     let wanted = |view: &View<'_>| {
         hunts.iter().for_each(|hunt| hunt.look(view));
-        may_stop && hunts.iter().all(Hunt::is_over)
+        may_stop && hunts.iter().all(|hunt| hunt.is_over())
     };
     let options = Options { keep: true, ..*options };
     explore(&Model::from(net), &options, watch, Some(&wanted))
@@ -54,10 +56,15 @@ pub(super) fn search(
 
 impl<'q> Hunt<'q> {
     pub(super) fn of(question: &'q Question) -> Self {
-        let formula = match question {
-            Question::Most(places) => return Self::Most(Most { places, tokens: AtomicU64::new(0) }),
-            Question::Holds(formula) => formula,
-        };
+        match question {
+            Question::Holds(formula) => Self::of_formula(formula),
+            Question::Examination(examination) => Self::Whole(*examination),
+            Question::Most(places) => Self::Most(Most { places, tokens: AtomicU64::new(0) }),
+        }
+    }
+
+    /// For a formula as a whole.
+    pub(super) fn of_formula(formula: &'q Bound) -> Self {
         let goal = |formula, is_existential| Self::Goal(Goal { formula, is_existential, found: OnceLock::new() });
         match formula {
             Bound::Until { quantifier: Quantifier::Some, weak: false, hold, release }
@@ -74,11 +81,34 @@ impl<'q> Hunt<'q> {
         }
     }
 
+    /// Whether it needs more of the states than to see each of them.
+    pub(super) fn looks_at_the_whole(&self) -> bool {
+        matches!(self, Self::Paths(_) | Self::Whole(_))
+    }
+
+    /// Whether the graph can tell more than the figures.
+    pub(super) fn needs_the_graph(&self) -> bool {
+        matches!(self, Self::Paths(_) | Self::Whole(Examination::Liveness))
+    }
+
     fn look(&self, view: &View<'_>) {
         match self {
             Self::Goal(goal) => goal.look(view),
             Self::Most(most) => most.look(view),
-            Self::Paths(_) => {}
+            Self::Whole(_) | Self::Paths(_) => {}
+        }
+    }
+
+    /// What the exploration says, if that is enough.
+    pub(super) fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
+        match self {
+            Self::Goal(goal) => goal.reply(net, exploration),
+            Self::Most(most) => {
+                let tokens = most.tokens.load(Ordering::Relaxed);
+                (exploration.stop == Stop::Complete).then_some(Reply::Most(tokens))
+            }
+            Self::Whole(examination) => examination.reply(net, exploration),
+            Self::Paths(_) => None,
         }
     }
 
@@ -95,12 +125,12 @@ impl Goal<'_> {
     }
 
     /// What the exploration says, a state found being shown by a run to it.
-    pub(super) fn reply(&self, net: &Net, exploration: &Exploration) -> Reply {
+    fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         match self.found.get() {
-            Some(marking) => self.shown(net, exploration, marking),
-            None if exploration.stop != Stop::Complete => Reply::Unknown(exploration.stop.to_string()),
-            None if self.is_existential => Reply::Violated(None),
-            None => Reply::Holds(None),
+            Some(marking) => Some(self.shown(net, exploration, marking)),
+            None if exploration.stop != Stop::Complete => None,
+            None if self.is_existential => Some(Reply::Violated(None)),
+            None => Some(Reply::Holds(None)),
         }
     }
 
@@ -110,7 +140,7 @@ impl Goal<'_> {
                 "the way to a marking is lost, which is an error in Petril; please report it".to_owned(),
             );
         };
-        let run = Run { firings: firings.into_iter().map(TransitionId::at).collect(), loop_start: None };
+        let run = Run { firings: firings.into_iter().map(TransitionId::at).collect(), ..Run::default() };
         match replayed(net, &run) {
             Ok(markings) => {
                 let last = &markings[markings.len() - 1];
@@ -128,14 +158,6 @@ impl Most<'_> {
     fn look(&self, view: &View<'_>) {
         let sum = self.places.iter().map(|place| view.tokens(place.index())).sum();
         self.tokens.fetch_max(sum, Ordering::Relaxed);
-    }
-
-    /// What the exploration says.
-    pub(super) fn reply(&self, exploration: &Exploration) -> Reply {
-        match exploration.stop {
-            Stop::Complete => Reply::Most(self.tokens.load(Ordering::Relaxed)),
-            _ => Reply::Unknown(exploration.stop.to_string()),
-        }
     }
 }
 

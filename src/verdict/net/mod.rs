@@ -1,16 +1,23 @@
 //! Questions about a net alone, all answered by one exploration: what can be reached, on the way (`hunt`); what speaks of paths,
 //! on the whole graph (`paths`). Every run is replayed by the plain firing rule (`replay`).
 
+mod atoms;
+mod examination;
+mod explain;
 mod hunt;
+mod live;
 mod paths;
 mod replay;
+mod split;
+mod watched;
 
-use rayon::prelude::*;
-
+pub use self::examination::Examination;
 use self::hunt::{Hunt, search};
 use self::paths::Paths;
-use crate::explore::engine::{Figures, Options};
-use crate::explore::{Progress, Stop};
+use self::split::Split;
+use self::watched::watched;
+use crate::explore::engine::{Exploration, Figures, Options};
+use crate::explore::{Budget, Progress, Stop};
 use crate::logic::Bound;
 use crate::net::{Net, PlaceId, TransitionId};
 
@@ -21,6 +28,8 @@ pub enum Question {
     Holds(Bound),
     /// How many tokens these places can hold together, a place named twice counting twice.
     Most(Vec<PlaceId>),
+    /// Something about the net as a whole.
+    Examination(Examination),
 }
 
 /// The answer to a question.
@@ -36,13 +45,27 @@ pub enum Reply {
     Unknown(String),
 }
 
-/// A firing sequence from the initial marking. It is shortest if it is finite.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A firing sequence from the initial marking, or from where it branches off another. One to a state that is looked for is
+/// shortest.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Run {
     /// The transitions in the order of firing.
     pub firings: Vec<TransitionId>,
     /// For a run without end, the number of firings after which the marking was the one that the last firing leads to.
     pub loop_start: Option<usize>,
+    /// What else is to be shown on the way.
+    pub branches: Vec<Branch>,
+}
+
+/// A formula that holds on the way of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Branch {
+    /// After how many firings.
+    pub at: usize,
+    /// The formula.
+    pub formula: Bound,
+    /// A run from there that shows it. None can show what holds on all paths.
+    pub run: Option<Run>,
 }
 
 /// What came of an exploration.
@@ -56,11 +79,19 @@ pub struct NetReport {
     pub stop: Stop,
 }
 
+/// Called now and then with how far the work is; gives a reason to stop.
+type Watch<'w> = &'w mut (dyn FnMut(&Progress) -> Option<String> + 'w);
+
+/// States of the first exploration for formulas about paths. Many are decided near the initial state.
+const FIRST: u64 = 100_000;
+
+/// So many times as many states are explored next.
+const GROWTH: u64 = 16;
+
 /// Explores a net until every question is answered, or the options or `watch` end it. Every run has been replayed by the plain
 /// firing rule.
 ///
-/// What answers a [`Hunt::Goal`] without going through all states has its place before the search: a hunt whose reply is known
-/// need not take part in it.
+/// Formulas about paths are tried on a part of the states first, then on larger ones, for what is left.
 #[must_use]
 pub fn judge(
     net: &Net,
@@ -68,18 +99,78 @@ pub fn judge(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> NetReport {
-    let hunts: Vec<Hunt<'_>> = questions.iter().map(Hunt::of).collect();
-    let exploration = search(net, &hunts, options, watch);
-    let on_paths = hunts.iter().any(|hunt| matches!(hunt, Hunt::Paths(_)));
-    let paths = on_paths.then(|| Paths::of(net, &exploration));
-    let replies = hunts.par_iter().map(|hunt| match hunt {
-        Hunt::Goal(goal) => goal.reply(net, &exploration),
-        Hunt::Most(most) => most.reply(&exploration),
-        Hunt::Paths(formula) => match &paths {
-            Some(Ok(paths)) => paths.reply(formula),
-            Some(Err(reason)) => Reply::Unknown(reason.clone()),
-            None => Reply::Unknown("nobody looked".to_owned()),
-        },
+    let mut hunts = Vec::new();
+    let splits: Vec<Split<'_>> = questions.iter().map(|question| Split::of(question, net, &mut hunts)).collect();
+    let mut replies: Vec<Option<Reply>> = vec![None; hunts.len()];
+    // Whatever answers a goal (`Hunt::Goal`) without going through the states has its place here.
+    let mut states = FIRST;
+    loop {
+        let open = open(&splits, &replies);
+        let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| &hunts[at]).collect();
+        if !wanted.iter().any(|hunt| hunt.looks_at_the_whole()) {
+            states = options.budget.states;
+        }
+        let budget = Budget { states: states.min(options.budget.states), ..options.budget };
+        let exploration = search(net, &wanted, &Options { budget, ..*options }, watch);
+        let (found, reason) = answers(net, &wanted, &exploration, &budget, watch);
+        open.iter().zip(found).for_each(|(&at, reply)| replies[at] = reply);
+        let is_partial = exploration.stop == Stop::States(states) && states < options.budget.states;
+        if reason.is_some() || !is_partial || self::open(&splits, &replies).is_empty() {
+            let reason = reason.unwrap_or_else(|| exploration.stop.to_string());
+            let reply = |split: &Split<'_>| {
+                let unknown = || Reply::Unknown(split.reason(&replies).unwrap_or(&reason).to_owned());
+                split.reply(&replies).unwrap_or_else(unknown)
+            };
+            let replies = splits.iter().map(reply).collect();
+            return NetReport { replies, figures: exploration.figures, stop: exploration.stop };
+        }
+        states = states.saturating_mul(GROWTH);
+    }
+}
+
+/// The parts without a reply that an answer still depends on, ascending.
+fn open(splits: &[Split<'_>], replies: &[Option<Reply>]) -> Vec<usize> {
+    let mut open = Vec::new();
+    for split in splits.iter().filter(|split| split.reply(replies).is_none()) {
+        split.for_each_part(&mut |part| open.push(part));
+    }
+    open.retain(|&part| replies[part].is_none());
+    open.sort_unstable();
+    open.dedup();
+    open
+}
+
+/// What an exploration answers; and why that could have been more, if it is not that states are missing.
+fn answers(
+    net: &Net,
+    hunts: &[&Hunt<'_>],
+    exploration: &Exploration,
+    budget: &Budget,
+    watch: Watch<'_>,
+) -> (Vec<Option<Reply>>, Option<String>) {
+    let mut replies: Vec<Option<Reply>> = hunts.iter().map(|hunt| hunt.reply(net, exploration)).collect();
+    let is_open = |at: &usize| hunts[*at].needs_the_graph() && replies[*at].is_none();
+    let open: Vec<usize> = (0..hunts.len()).filter(is_open).collect();
+    if open.is_empty() {
+        return (replies, None);
+    }
+    let bytes = Paths::bytes(exploration);
+    if bytes > budget.bytes {
+        let reason =
+            format!("the graph needs {} MiB, {} more than the limit", bytes >> 20, (bytes - budget.bytes) >> 20);
+        return (replies, Some(reason));
+    }
+    let progress = Progress {
+        states: exploration.figures.states,
+        expanded: exploration.figures.states,
+        depth: exploration.figures.depth,
+        bytes,
+    };
+    let (found, reason) = watched(watch, &progress, |stopping| {
+        let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| hunts[at]).collect();
+        Paths::of(net, exploration, stopping).map(|paths| paths.replies(&wanted, stopping))
     });
-    NetReport { replies: replies.collect(), figures: exploration.figures.clone(), stop: exploration.stop.clone() }
+    let found = found.flatten().unwrap_or_default();
+    open.into_iter().zip(found).for_each(|(at, reply)| replies[at] = reply);
+    (replies, reason)
 }

@@ -1,93 +1,100 @@
-//! Formulas about paths, labelled on the whole graph.
+//! Formulas about paths, labelled on the graph of the states explored; if these are not all states, only what holds whatever
+//! the others are counts.
 
-use fixedbitset::FixedBitSet;
+use std::sync::atomic::AtomicBool;
 
-use super::hunt::Seen;
-use super::replay::{Played, refuted, replayed};
+use rayon::prelude::*;
+
+use super::atoms::Atoms;
+use super::explain::explain;
+use super::hunt::Hunt;
+use super::live::live;
+use super::replay::refuted;
 use super::{Reply, Run};
 use crate::explore::engine::Exploration;
 use crate::explore::{Graph, Stop};
-use crate::logic::{Bound, Dag, Labels, Node, NodeId, evidence, label_from};
-use crate::net::{Net, TransitionId};
+use crate::logic::{Bound, Dag, NodeId, label_from};
+use crate::net::Net;
 use crate::verdict::check::is_existential;
 
-/// The whole graph, for formulas about paths.
+/// The graph, and where the parts about one state of some formulas hold.
 pub(super) struct Paths<'e> {
-    net: &'e Net,
-    exploration: &'e Exploration,
-    graph: Graph,
-    /// Where the firings of each state begin in `fired`.
-    starts: Vec<u64>,
-    /// The transition of each step, in the order of the graph's rows.
-    fired: Vec<u32>,
+    pub(super) net: &'e Net,
+    pub(super) exploration: &'e Exploration,
+    pub(super) graph: Graph,
 }
 
 impl<'e> Paths<'e> {
-    /// The graph, or why there is none.
-    pub(super) fn of(net: &'e Net, exploration: &'e Exploration) -> Result<Self, String> {
-        if exploration.stop != Stop::Complete {
-            return Err(exploration.stop.to_string());
-        }
-        let steps = exploration.steps(true).ok_or("the graph has too many states")?;
-        let (starts, targets, fired) = steps.into_parts();
-        let graph = Graph::of_rows(starts.clone(), targets);
-        Ok(Self { net, exploration, graph, starts, fired })
+    /// The graph; nothing if `stopping` is set meanwhile, or there are too many states.
+    pub(super) fn of(net: &'e Net, exploration: &'e Exploration, stopping: &AtomicBool) -> Option<Self> {
+        let (starts, targets) = exploration.steps(stopping)?.into_parts();
+        let graph = Graph::of_rows(starts, targets, exploration.stop.clone());
+        Some(Self { net, exploration, graph })
     }
 
-    /// Whether a formula holds at the beginning.
-    pub(super) fn reply(&self, formula: &Bound) -> Reply {
-        let mut dag = Dag::default();
-        let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
-        let mut atoms = self.atoms(&dag);
-        let labels = label_from(&self.graph, &dag, &mut |node, _| std::mem::take(&mut atoms[node.index()]), None);
-        let holds = labels.of(yes).contains(0);
-        let shows = if holds { yes } else { no };
-        let run = if is_existential(&dag, shows) { self.run(&dag, &labels, shows) } else { Ok(None) };
-        match run {
-            Ok(run) if holds => Reply::Holds(run),
-            Ok(run) => Reply::Violated(run),
-            Err(what) => refuted(&what),
-        }
+    /// Bytes that the graph takes, with all that is needed to make it.
+    pub(super) fn bytes(exploration: &Exploration) -> u64 {
+        let figures = &exploration.figures;
+        let steps = figures.transitions as f64 / figures.expanded.max(1) as f64 * 4.0;
+        figures.bytes + figures.states * 24 + (figures.states as f64 * steps) as u64
     }
 
-    /// The states in which each formula about one state holds.
-    fn atoms(&self, dag: &Dag) -> Vec<FixedBitSet> {
-        let states = self.graph.len();
-        let mut sets: Vec<FixedBitSet> = dag.nodes().iter().map(|_| FixedBitSet::new()).collect();
-        let formulas = dag.nodes().iter().enumerate().filter_map(|(position, node)| match node {
-            Node::State { formula, .. } => Some((position, formula)),
+    /// What the graph says to some hunts. They are gone through side by side.
+    pub(super) fn replies(&self, hunts: &[&Hunt<'_>], stopping: &AtomicBool) -> Vec<Option<Reply>> {
+        let sides = |hunt: &&Hunt<'_>| match hunt {
+            Hunt::Paths(formula) => Some([false, true].map(|negated| Side::of(formula, negated))),
             _ => None,
-        });
-        let formulas: Vec<(usize, &Bound)> = formulas.collect();
-        formulas.iter().for_each(|&(position, _)| sets[position].grow(states));
-        self.exploration.for_each_state(|state, view| {
-            for &(position, formula) in &formulas {
-                if formula.holds_in(&Seen(view)) == Some(true) {
-                    sets[position].insert(state as usize);
-                }
-            }
-        });
-        sets
+        };
+        let sides: Vec<Option<[Side; 2]>> = hunts.iter().map(sides).collect();
+        let dags = sides.iter().flatten().flatten().map(|side| &side.dag);
+        let Some(atoms) = Atoms::of(self.exploration, dags, stopping) else { return Vec::new() };
+        let reply = |sides: &Option<[Side; 2]>| match sides {
+            Some(sides) => self.reply(sides, &atoms, stopping),
+            None => live(self, stopping),
+        };
+        sides.par_iter().map(reply).collect()
     }
 
-    /// A run that shows a node at the initial state, replayed with everything it claims of single states.
-    fn run(&self, dag: &Dag, labels: &Labels, node: NodeId) -> Result<Option<Run>, String> {
-        let Some(evidence) = evidence(&self.graph, dag, labels, None, node, &[0]) else { return Ok(None) };
-        let targets = evidence.states.iter().skip(1).copied().chain(evidence.loop_start.map(|i| evidence.states[i]));
-        let firings = evidence.states.iter().zip(targets).map(|(&from, to)| {
-            let position = self.graph.successors(from).iter().position(|&target| target == to)?;
-            Some(TransitionId::at(self.fired[self.starts[from as usize] as usize + position] as usize))
-        });
-        let firings: Option<Vec<TransitionId>> = firings.collect();
-        let run = Run { firings: firings.ok_or("a step is not there")?, loop_start: evidence.loop_start };
-        let markings = replayed(self.net, &run)?;
-        for claim in &evidence.claims {
-            if let Node::State { formula, negated } = dag.node(claim.node)
-                && formula.holds_in(&Played(self.net, &markings[claim.position])) != Some(!*negated)
-            {
-                return Err(format!("marking {} does not show it", claim.position));
-            }
+    fn reply(&self, [yes, no]: &[Side; 2], atoms: &Atoms<'_>, stopping: &AtomicBool) -> Option<Reply> {
+        if let Some(run) = self.shown(yes, atoms, stopping)? {
+            return Some(run.map_or_else(|what| refuted(&what), Reply::Holds));
         }
-        Ok(Some(run))
+        if self.graph.stop() == &Stop::Complete && !no.is_existential() {
+            return Some(Reply::Violated(None));
+        }
+        let run = self.shown(no, atoms, stopping)??;
+        Some(run.map_or_else(|what| refuted(&what), Reply::Violated))
+    }
+
+    /// A run that shows one side at the beginning, replayed, if it holds there; nothing at all if there is no time left.
+    fn shown(
+        &self,
+        side: &Side,
+        atoms: &Atoms<'_>,
+        stopping: &AtomicBool,
+    ) -> Option<Option<Result<Option<Run>, String>>> {
+        let holding = |formula: &Bound, negated| atoms.holding(formula, negated, self.graph.len());
+        let labels = label_from(&self.graph, &side.dag, &holding, stopping)?;
+        let holds = labels.of(side.root).contains(0);
+        Some(holds.then(|| if side.is_existential() { explain(self, &side.dag, &labels, side.root) } else { Ok(None) }))
+    }
+}
+
+/// A formula, or its negation.
+struct Side {
+    dag: Dag,
+    root: NodeId,
+}
+
+impl Side {
+    fn of(formula: &Bound, negated: bool) -> Self {
+        let mut dag = Dag::default();
+        let root = dag.add(formula, negated);
+        Self { dag, root }
+    }
+
+    /// Whether a run can show it.
+    fn is_existential(&self) -> bool {
+        is_existential(&self.dag, self.root)
     }
 }

@@ -1,0 +1,151 @@
+//! Answers about random nets with weights and deadlocks are those of the textbook; and what is answered on a part of the states is
+//! true of all of them.
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod support;
+
+use std::collections::BTreeMap;
+
+use petril::explore::Budget;
+use petril::explore::engine::{Model, Options};
+use petril::logic::{Bound, Comparison, Term, Valuation};
+use petril::net::{Builder, Net, PlaceId, Tokens, TransitionId};
+use petril::semantics::VarId;
+use petril::verdict::{Question, Reply, Run, judge};
+use proptest::prelude::*;
+use support::naive_ctl::Kripke;
+use support::naive_nets::{Marking, search};
+use support::random_formula;
+
+const PLACES: usize = 4;
+
+const TRANSITIONS: usize = 5;
+
+/// Arcs as places with weights.
+type Side = Vec<(usize, u64)>;
+
+fn net(initial: &[u64], transitions: &[(Side, Side)]) -> Net {
+    let mut builder = Builder::new("random");
+    let places: Vec<PlaceId> =
+        initial.iter().zip(["a", "b", "c", "d"]).map(|(&n, name)| builder.place_with(name, n)).collect();
+    for (number, (pre, post)) in transitions.iter().enumerate() {
+        let arcs = |side: &Side| side.iter().map(|&(place, weight)| (places[place], weight)).collect::<Vec<_>>();
+        builder.weighted(&format!("t{number}"), &arcs(pre), &arcs(post), &[]);
+    }
+    builder.build()
+}
+
+fn nets() -> impl Strategy<Value = Net> {
+    let side = || proptest::collection::vec((0..PLACES, 1..3_u64), 0..3);
+    let initial = proptest::collection::vec(0..4_u64, PLACES);
+    let transitions = proptest::collection::vec((side(), side()), TRANSITIONS);
+    (initial, transitions).prop_map(|(initial, transitions)| net(&initial, &transitions))
+}
+
+fn formulas() -> impl Strategy<Value = Bound> {
+    let tokens = |place, n| {
+        let (a, b) = (Term::Tokens(PlaceId::at(place)), Term::Number(n));
+        Bound::Compare(Comparison::AtLeast, a, b)
+    };
+    let mut atoms = vec![Bound::Deadlock];
+    atoms.extend((0..PLACES).flat_map(|place| [1, 2].map(|n| tokens(place, n))));
+    atoms.extend((0..PLACES).map(|place| Bound::Marked(PlaceId::at(place))));
+    atoms.extend((0..TRANSITIONS).map(|transition| Bound::Enabled(TransitionId::at(transition))));
+    random_formula::formula(atoms, true)
+}
+
+/// A marking as the textbook has it.
+struct At<'n>(&'n Model, &'n Marking);
+
+impl Valuation for At<'_> {
+    fn value(&self, _: VarId) -> u64 {
+        unreachable!()
+    }
+    fn is_marked(&self, place: PlaceId) -> bool {
+        self.tokens(place) > 0
+    }
+    fn tokens(&self, place: PlaceId) -> u64 {
+        self.1[place.index()]
+    }
+    fn is_enabled(&self, transition: TransitionId) -> bool {
+        support::naive_nets::fire(&self.0.transitions[transition.index()], self.1).is_some()
+    }
+    fn is_deadlock(&self) -> bool {
+        (0..TRANSITIONS).all(|transition| !self.is_enabled(TransitionId::at(transition)))
+    }
+}
+
+/// Whether a formula holds at the beginning; nothing if there are too many markings.
+fn textbook(net: &Net, formulas: &[Bound]) -> Option<Vec<bool>> {
+    let model = Model::from(net);
+    let naive = search(&model, 300)?;
+    let markings: Vec<&Marking> = naive.markings.keys().collect();
+    let numbers: BTreeMap<&Marking, usize> = markings.iter().enumerate().map(|(number, &m)| (m, number)).collect();
+    let mut successors = vec![Vec::new(); markings.len()];
+    naive.steps.iter().for_each(|(from, _, to)| successors[numbers[from]].push(numbers[to]));
+    let kripke = Kripke { successors, fair: None };
+    let initial = numbers[&model.initial];
+    let atom = |formula: &Bound, state: usize| formula.holds_in(&At(&model, markings[state])).unwrap();
+    Some(formulas.iter().map(|formula| kripke.states(formula, &atom)[initial]).collect())
+}
+
+/// Plays a run and those that branch off it.
+fn play(net: &Net, run: &Run, from: &Tokens) {
+    let mut markings = vec![from.clone()];
+    for &transition in &run.firings {
+        let mut tokens = markings[markings.len() - 1].clone();
+        assert!(net.has_concession(&tokens, transition));
+        net.play(&mut tokens, transition).unwrap();
+        markings.push(tokens);
+    }
+    if let Some(start) = run.loop_start {
+        assert!(start < run.firings.len());
+        assert_eq!(markings[start], markings[markings.len() - 1]);
+    }
+    for branch in &run.branches {
+        branch.run.iter().for_each(|run| play(net, run, &markings[branch.at]));
+    }
+}
+
+/// The answers, which may be missing if there is a limit.
+fn judged(net: &Net, formulas: &[Bound], states: u64, threads: usize) -> Vec<Option<bool>> {
+    let questions: Vec<Question> = formulas.iter().cloned().map(Question::Holds).collect();
+    let budget = Budget { states, ..Budget::default() };
+    let options = Options { budget, threads, ..Options::default() };
+    let report = judge(net, &questions, &options, &mut |_| None);
+    let answer = |reply: &Reply| {
+        let (holds, run) = match reply {
+            Reply::Holds(run) => (true, run),
+            Reply::Violated(run) => (false, run),
+            Reply::Unknown(reason) => {
+                assert!(reason.contains("limit"), "{reason}");
+                return None;
+            }
+            Reply::Most(_) => unreachable!(),
+        };
+        run.iter().for_each(|run| play(net, run, &net.initial_tokens()));
+        Some(holds)
+    };
+    report.replies.iter().map(answer).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn answers_are_those_of_the_textbook(
+        net in nets(),
+        formulas in proptest::collection::vec(formulas(), 1..6),
+        limit in 1..30_u64,
+        threads in 1..3_usize,
+    ) {
+        let Some(expected) = textbook(&net, &formulas) else { return Ok(()) };
+        let expected: Vec<Option<bool>> = expected.into_iter().map(Some).collect();
+        prop_assert_eq!(&judged(&net, &formulas, 1000, threads), &expected);
+        let simplified: Vec<Bound> = formulas.iter().cloned().map(Bound::simplified).collect();
+        prop_assert_eq!(&judged(&net, &simplified, 1000, threads), &expected);
+        for (part, whole) in judged(&net, &formulas, limit, threads).iter().zip(&expected) {
+            prop_assert!(part.is_none() || part == whole, "{part:?} of {limit} states, {whole:?} of all");
+        }
+    }
+}
