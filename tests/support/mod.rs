@@ -11,6 +11,7 @@ pub mod naive_structure;
 pub mod process;
 pub mod random_flat;
 pub mod random_formula;
+pub mod random_model;
 pub mod random_net;
 pub mod random_program;
 pub mod random_wide_body;

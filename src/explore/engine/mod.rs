@@ -3,7 +3,8 @@
 //! A [`Model`] is any place/transition net. Its place invariants tell how few bits a marking needs (`cover`, `packing`);
 //! tables tell what a packed marking enables (`rows`, `candidates`), and firing is one addition. Firings that another order of the same
 //! firings makes superfluous are left out (`swaps`). States are entered into a table whose entries hold only what their place in
-//! it does not say (`lines`, `keys`), those of more than 64 bits after being folded (`fold`).
+//! it does not say (`lines`, `keys`), those of more than 64 bits after being folded (`fold`). A search for a [`Goal`](super::Goal)
+//! fires only what its stubborn sets hold (`stubborn`).
 
 mod allowed;
 mod behaviour;
@@ -26,6 +27,7 @@ mod rows;
 mod scramble;
 mod search;
 mod shard;
+mod stubborn;
 mod swaps;
 mod tally;
 mod trace;
@@ -35,5 +37,5 @@ pub use behaviour::Behaviour;
 pub use exploration::{Exploration, Figures};
 pub use graph::Steps;
 pub use model::{Arcs, Model};
-pub use search::{Options, explore};
+pub use search::{Options, explore, explore_towards};
 pub use view::View;

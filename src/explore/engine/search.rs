@@ -11,9 +11,11 @@ use super::cover::Bounds;
 use super::machine::Machine;
 use super::model::{MANY, Model, Rule};
 use super::shard::{Counts, Halt, Letter, Shard, Task};
+use super::stubborn::Stubborn;
 use super::view::View;
 use super::{Exploration, Figures};
 use crate::explore::budget::{Budget, Progress, Stop};
+use crate::explore::goal::Goal;
 
 /// How to explore.
 #[derive(Clone, Copy, Debug)]
@@ -53,23 +55,50 @@ pub fn explore(
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
     wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
 ) -> Exploration {
+    match model.rules() {
+        Ok(rules) => run(model, &rules, options, watch, wanted, None),
+        Err(reason) => Exploration::refused(reason),
+    }
+}
+
+/// Explores a net until a marking with a property is found, or there can be none, or the budget or `watch` ends the search.
+/// Only transitions are fired that a nearest such marking may need, so the figures are those of a part of the states. The
+/// marking found is none the farther for that.
+pub fn explore_towards(
+    model: &Model,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    goal: &Goal,
+) -> Exploration {
     let rules = match model.rules() {
         Ok(rules) => rules,
         Err(reason) => return Exploration::refused(reason),
     };
-    let bounds = Bounds::of(&model.initial, &rules);
+    let stubborn = Stubborn::of(goal, &rules, model.initial.len());
+    run(model, &rules, options, watch, Some(&|view| goal.holds(view)), Some(&stubborn))
+}
+
+fn run(
+    model: &Model,
+    rules: &[Rule],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
+    stubborn: Option<&Stubborn<'_>>,
+) -> Exploration {
+    let bounds = Bounds::of(&model.initial, rules);
     let mut limits: Vec<u64> = model.initial.iter().map(|&tokens| tokens.max(1)).collect();
     for round in 0.. {
-        let machine = Machine::new(&model.initial, &rules, &bounds, &limits);
+        let machine = Machine::new(&model.initial, rules, &bounds, &limits);
         let shards = options.threads.max(1);
-        let task = Task { machine: &machine, wanted, shards, keep: options.keep };
+        let task = Task { machine: &machine, wanted, stubborn, shards, keep: options.keep };
         let mut search = Search::new(task, options.budget);
         let end = search.run(watch);
         let End::Overflow(words) = end else {
             let shards = std::mem::take(&mut search.shards);
-            return finish(model, &rules, machine, shards, end, options.keep);
+            return finish(model, rules, machine, shards, end, options.keep);
         };
-        if !raise(&mut limits, &machine, &rules, &words, round) {
+        if !raise(&mut limits, &machine, rules, &words, round) {
             break;
         }
     }

@@ -5,6 +5,8 @@ use std::ops::Range;
 use super::fold::Fold;
 use super::keys::Keys;
 use super::machine::{Changes, Machine};
+use super::machine::Machine;
+use super::stubborn::{self, Stubborn};
 use super::tally::Seen;
 use super::view::View;
 
@@ -67,6 +69,7 @@ struct Scratch {
     after: Vec<u64>,
     numbers: Vec<u32>,
     numbers_after: Vec<u32>,
+    stubborn: stubborn::Scratch,
 }
 
 /// What a search does with each state.
@@ -74,6 +77,8 @@ pub(super) struct Task<'a> {
     pub(super) machine: &'a Machine,
     /// Ends the search at a state of which it is true.
     pub(super) wanted: Option<&'a (dyn Fn(&View<'_>) -> bool + Sync)>,
+    /// What need not be fired on the way to a goal.
+    pub(super) stubborn: Option<&'a Stubborn<'a>>,
     pub(super) shards: usize,
     /// Whether states are kept.
     pub(super) keep: bool,
@@ -209,7 +214,10 @@ impl Shard {
                 halt = Some(Halt::Found(words.to_vec()));
                 break;
             }
-            machine.swaps.restrict(via, set);
+            match task.stubborn {
+                Some(stubborn) => stubborn.restrict(&machine.packing, words, set, &mut self.scratch.stubborn),
+                None => machine.swaps.restrict(via, set),
+            }
             for (position, word) in set.iter().enumerate() {
                 let mut word = *word;
                 while word != 0 {
