@@ -17,6 +17,7 @@ mod search;
 mod space;
 mod store;
 mod tarjan;
+mod walk;
 
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
@@ -28,3 +29,4 @@ pub use marking_space::MarkingSpace;
 pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
 pub use space::{Failure, StateSpace, Step};
+pub use walk::{Walk, without_loops};

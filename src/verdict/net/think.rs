@@ -1,0 +1,183 @@
+//! Goals in nets too large to explore at once: what walks find, what the state equation excludes, and what searches for one goal
+//! at a time, in nets reduced for it, find or exclude.
+
+use super::equation::is_impossible;
+use super::hunt::Hunt;
+use super::target::Target;
+use super::{Reply, Watch};
+use crate::explore::engine::{Model, Options, explore_towards};
+use crate::explore::{Budget, Goal, Progress, Stop, Walk, without_loops};
+use crate::net::{Net, TransitionId};
+use crate::structure::state_equation::Problem;
+
+/// Atoms that walks look at, those for all goals together and those for one.
+const WALKED: usize = 6_000_000;
+const WALKED_FOR_ONE: usize = 1_500_000;
+
+/// Firings of the first walk. Each one is longer than the one before.
+const SHORT: usize = 200;
+
+/// Steps between two looks at the clock.
+const PAUSE: usize = 4096;
+
+/// Elementary steps of the linear programs for one goal.
+const STEPS: u64 = 20_000_000;
+
+/// Goals that the first look at the states has left open.
+pub(super) struct Thinker<'n, 'h> {
+    net: &'n Net,
+    model: Model,
+    cases: Vec<Case<'n, 'h>>,
+    has_begun: bool,
+}
+
+/// A goal that is open until it has a reply.
+struct Case<'n, 'h> {
+    hunt: &'h Hunt<'h>,
+    /// Where it stands among the hunts.
+    at: usize,
+    aim: Goal,
+    target: Option<Target<'n>>,
+    reply: Option<Reply>,
+}
+
+impl<'n, 'h> Thinker<'n, 'h> {
+    /// Takes up what is a goal of the hunts, each with its number.
+    pub(super) fn new(net: &'n Net, hunts: impl Iterator<Item = (usize, &'h Hunt<'h>)>) -> Self {
+        let case = |(at, hunt): (usize, &'h Hunt<'h>)| {
+            Some(Case { hunt, at, aim: hunt.aim()?, target: None, reply: None })
+        };
+        Self { net, model: Model::from(net), cases: hunts.filter_map(case).collect(), has_begun: false }
+    }
+
+    /// Whether it has taken up a hunt.
+    pub(super) fn has(&self, at: usize) -> bool {
+        self.cases.iter().any(|case| case.at == at)
+    }
+
+    /// Looks for replies with up to so many states for each goal, until `watch` gives a reason to stop. Returns those found,
+    /// and the reason.
+    pub(super) fn round(
+        &mut self,
+        states: u64,
+        options: &Options,
+        watch: Watch<'_>,
+    ) -> (Vec<(usize, Reply)>, Option<String>) {
+        let reason = self.work(states, options, watch).err();
+        let (done, open): (Vec<_>, Vec<_>) = self.cases.drain(..).partition(|case| case.reply.is_some());
+        self.cases = open;
+        (done.into_iter().filter_map(|case| Some((case.at, case.reply?))).collect(), reason)
+    }
+
+    fn work(&mut self, states: u64, options: &Options, watch: Watch<'_>) -> Result<(), String> {
+        if !std::mem::replace(&mut self.has_begun, true) {
+            self.walk(None, WALKED, watch)?;
+            let problem = Problem::new(self.net);
+            for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
+                if is_impossible(&problem, self.net, &case.aim, STEPS) {
+                    case.reply = case.hunt.absent();
+                }
+                look(watch)?;
+            }
+            for position in 0..self.cases.len() {
+                self.walk(Some(position), WALKED_FOR_ONE, watch)?;
+            }
+        }
+        let budget = Budget { states: states.min(options.budget.states), ..options.budget };
+        let options = Options { budget, keep: true, ..*options };
+        for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
+            case.search(self.net, &self.model, &options, watch)?;
+        }
+        Ok(())
+    }
+
+    /// Walks until so many atoms were looked at: anywhere, or towards one of the goals.
+    fn walk(&mut self, towards: Option<usize>, atoms: usize, watch: Watch<'_>) -> Result<(), String> {
+        if towards.is_some_and(|position| self.cases[position].reply.is_some()) {
+            return Ok(());
+        }
+        let seed = towards.map_or(1, |position| position as u64 + 2);
+        let Some(mut walk) = Walk::new(&self.model, seed) else { return Ok(()) };
+        let (mut looked, mut steps, mut length) = (0, 0, SHORT);
+        while looked < atoms {
+            let goes_on = walk.firings().len() < length
+                && match towards {
+                    Some(position) => walk.step_towards(&self.cases[position].aim),
+                    None => walk.step(),
+                };
+            if !goes_on {
+                length += length / 2;
+                walk.restart();
+                looked += self.model.initial.len();
+            }
+            let mut open = 0;
+            for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
+                looked += 1 + size(&case.aim);
+                open += 1;
+                if case.aim.holds(&walk) {
+                    case.found(self.net, &without_loops(&self.model, walk.firings()));
+                }
+            }
+            if open == 0 || towards.is_some_and(|position| self.cases[position].reply.is_some()) {
+                return Ok(());
+            }
+            looked += 1;
+            steps += 1;
+            if steps % PAUSE == 0 {
+                look(watch)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<'n> Case<'n, '_> {
+    /// The net reaches the goal by these firings. A goal that can be raised is raised.
+    fn found(&mut self, net: &'n Net, firings: &[u32]) {
+        let run = firings.iter().map(|&transition| TransitionId::at(transition as usize)).collect();
+        self.reply = self.hunt.reached(net, run);
+        if let (None, Some(aim)) = (&self.reply, self.hunt.aim()) {
+            self.aim = aim;
+        }
+    }
+
+    /// Searches the net reduced for the goal.
+    fn search(&mut self, net: &'n Net, model: &Model, options: &Options, watch: Watch<'_>) -> Result<(), String> {
+        while self.reply.is_none() {
+            let target = self.target.get_or_insert_with(|| Target::of(net, &self.aim));
+            let goal = target.goal(&self.aim);
+            let mut reason = None;
+            let mut watch = |progress: &Progress| {
+                reason = watch(progress);
+                reason.clone()
+            };
+            let exploration = explore_towards(&target.model, options, &mut watch, &goal);
+            if let Some(found) = &exploration.found {
+                let firings = exploration.firings(found).ok_or("the way to a marking is lost, which is an error")?;
+                match target.lifted(&firings) {
+                    Some(firings) => self.found(net, &without_loops(model, &firings)),
+                    None => self.target = Some(Target::unreduced(net)),
+                }
+            } else if exploration.stop == Stop::Complete {
+                self.reply = self.hunt.absent();
+            } else {
+                return reason.map_or(Ok(()), Err);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How many atoms a goal has.
+fn size(goal: &Goal) -> usize {
+    match goal {
+        Goal::All(parts) | Goal::Any(parts) => parts.iter().map(size).sum(),
+        Goal::AtLeast { terms, .. } => terms.len(),
+        _ => 1,
+    }
+}
+
+/// Looks at the clock.
+fn look(watch: Watch<'_>) -> Result<(), String> {
+    watch(&Progress::default()).map_or(Ok(()), Err)
+}
