@@ -4,7 +4,7 @@
 mod support;
 
 use petril::explore::engine::{Model, Options, explore_towards};
-use petril::explore::{Goal, Stop, Tokens};
+use petril::explore::{Goal, Stop, Tokens, Walk, without_loops};
 use proptest::prelude::*;
 use support::naive_nets::{Marking, fire, search};
 use support::random_model::{any_model, conserving_model, machines};
@@ -32,8 +32,8 @@ impl Tokens for Plain<'_> {
 fn goal(places: usize, transitions: usize) -> impl Strategy<Value = Goal> {
     let places = 0..places as u32;
     let terms = prop::collection::btree_map(places, prop_oneof![-2..=-1_i64, 1..=3_i64], 1..=3);
-    let at_least = (terms, -3..=5_i128)
-        .prop_map(|(terms, least)| Goal::AtLeast { terms: terms.into_iter().collect(), least });
+    let at_least =
+        (terms, -3..=5_i128).prop_map(|(terms, least)| Goal::AtLeast { terms: terms.into_iter().collect(), least });
     let transition = 0..transitions as u32;
     let atom = prop_oneof![
         4 => at_least,
@@ -100,6 +100,35 @@ proptest! {
     #[test]
     fn many_machines((model, goal) in with_goal(machines(150, 3, 8))) {
         agree(&model, &goal)?;
+    }
+}
+
+proptest! {
+    #[test]
+    fn walks_fire_what_is_enabled((model, goal) in with_goal(machines(40, 4, 60)), seed in 1..100_u64) {
+        let Some(mut walk) = Walk::new(&model, seed) else { return Ok(()) };
+        for step in 0..1000 {
+            let before = walk.firings().len();
+            let fired = if step % 3 == 0 { walk.step() } else { walk.step_towards(&goal) };
+            prop_assert_eq!(walk.firings().len(), before + usize::from(fired));
+            if step == 300 || !fired {
+                walk.restart();
+            }
+        }
+        let step = |marking: Marking, &transition: &u32| {
+            fire(&model.transitions[transition as usize], &marking).unwrap()
+        };
+        let firings = walk.firings();
+        let last = firings.iter().fold(model.initial.clone(), step);
+        prop_assert!((0..last.len()).all(|place| walk.tokens(place as u32) == last[place]));
+        prop_assert_eq!(goal.holds(&walk), goal.holds(&Plain(&model, &last)));
+        // No marking twice, and the same at the end.
+        let short = without_loops(&model, firings);
+        let mut markings = vec![model.initial.clone()];
+        short.iter().for_each(|transition| markings.push(step(markings[markings.len() - 1].clone(), transition)));
+        prop_assert_eq!(&markings[markings.len() - 1], &last);
+        markings.sort();
+        prop_assert!(markings.windows(2).all(|pair| pair[0] != pair[1]));
     }
 }
 

@@ -219,9 +219,12 @@ impl Tokens for Walk<'_> {
 /// compared by a number made of them, so whoever needs to be sure has to replay what is left.
 #[must_use]
 pub fn without_loops(model: &Model, firings: &[u32]) -> Vec<u32> {
+    // Sums of these numbers must not be equal by chance (splitmix64, Steele and others 2014).
     let weight = |place: u32| {
-        let mixed = (u64::from(place) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(31);
-        mixed.wrapping_mul(0xD6E8_FEB8_6659_FD93) | 1
+        let mut mixed = (u64::from(place) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed ^ mixed >> 31
     };
     let sum = |list: &[(u32, u64)]| {
         list.iter().fold(0_u64, |sum, &(place, tokens)| sum.wrapping_add(weight(place).wrapping_mul(tokens)))

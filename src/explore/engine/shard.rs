@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::fold::Fold;
 use super::keys::Keys;
 use super::machine::{Changes, Machine};
-use super::machine::Machine;
 use super::stubborn::{self, Stubborn};
 use super::tally::Seen;
 use super::view::View;

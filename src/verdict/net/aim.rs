@@ -43,7 +43,8 @@ fn compare(comparison: Comparison, sum: Linear) -> Option<Goal> {
     let Linear { terms, number } = sum;
     let least = |more: i128| Some(Goal::AtLeast { terms: terms.clone(), least: more.checked_sub(number)? });
     let most = |less: i128| {
-        let terms: Option<Vec<(u32, i64)>> = terms.iter().map(|&(p, factor)| Some((p, factor.checked_neg()?))).collect();
+        let terms: Option<Vec<(u32, i64)>> =
+            terms.iter().map(|&(p, factor)| Some((p, factor.checked_neg()?))).collect();
         Some(Goal::AtLeast { terms: terms?, least: number.checked_sub(less)? })
     };
     Some(match comparison {

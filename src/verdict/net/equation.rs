@@ -39,7 +39,8 @@ impl Work<'_> {
                 },
                 Goal::Enabled(id) => {
                     let needs = self.net.pre(TransitionId::at(*id as usize));
-                    constraints.extend(needs.filter_map(|(place, weight)| constraint(&[(number(place), 1)], weight.into())));
+                    constraints
+                        .extend(needs.filter_map(|(place, weight)| constraint(&[(number(place), 1)], weight.into())));
                 }
                 Goal::Disabled(id) => choices.push(Choice::Disabled(*id)),
                 Goal::Any(parts) => choices.push(Choice::Goals(parts)),

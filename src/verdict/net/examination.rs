@@ -1,6 +1,6 @@
 //! Questions about a net as a whole, as the Model Checking Contest asks them.
 
-use super::replay::{Played, replayed};
+use super::replay::{Played, last_marking};
 use super::{Branch, Question, Reply, Run};
 use crate::explore::Stop;
 use crate::explore::engine::Exploration;
@@ -119,9 +119,11 @@ pub(super) fn shown_at(
     let Some(firings) = exploration.firings(marking) else { return Reply::Unknown(lost.to_owned()) };
     let at = firings.len();
     let branches = formulas.into_iter().map(|formula| Branch { at, formula, run: None }).collect();
-    let run = Run { firings: firings.into_iter().map(TransitionId::at).collect(), loop_start: None, branches };
-    match replayed(net, &run) {
-        Ok(markings) if test(&Played(net, &markings[at])) => Reply::Violated(Some(run)),
+    let firings: Vec<TransitionId> = firings.into_iter().map(TransitionId::at).collect();
+    match last_marking(net, &firings) {
+        Ok(last) if test(&Played(net, &last)) => {
+            Reply::Violated(Some(Run { firings, branches, is_shortest: true, ..Run::default() }))
+        }
         Ok(_) => super::replay::refuted("the last marking does not show it"),
         Err(what) => super::replay::refuted(&what),
     }

@@ -156,7 +156,7 @@ impl Teller<'_> {
             let run = why.as_ref().map(|why| self.replayed(why, &markings[*at])).transpose()?;
             branches.push(Branch { at: *at, formula: self.dag.formula(*node), run });
         }
-        Ok(Run { firings, loop_start: tale.loop_start, branches })
+        Ok(Run { firings, loop_start: tale.loop_start, branches, is_shortest: false })
     }
 
     /// The transition that leads from a marking to another, and that marking.

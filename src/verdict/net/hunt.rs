@@ -1,14 +1,17 @@
 //! What is looked for in each state while a net is explored.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::replay::{Played, refuted, replayed};
+use super::aim::aim;
+use super::replay::{Played, last_marking, refuted};
 use super::{Examination, Question, Reply, Run};
-use crate::explore::engine::{Exploration, Model, Options, View, explore};
+use crate::explore;
+use crate::explore::engine::{Exploration, Model, Options, View};
 use crate::explore::{Progress, Stop};
 use crate::logic::{Bound, Quantifier, Valuation};
-use crate::net::{Net, PlaceId, TransitionId};
+use crate::net::{Net, PlaceId, Tokens, TransitionId};
 use crate::semantics::VarId;
 
 /// What is looked for in each state.
@@ -51,7 +54,7 @@ pub(super) fn search(
         may_stop && hunts.iter().all(|hunt| hunt.is_over())
     };
     let options = Options { keep: true, ..*options };
-    explore(&Model::from(net), &options, watch, Some(&wanted))
+    explore::engine::explore(&Model::from(net), &options, watch, Some(&wanted))
 }
 
 impl<'q> Hunt<'q> {
@@ -89,6 +92,42 @@ impl<'q> Hunt<'q> {
     /// Whether the graph can tell more than the figures.
     pub(super) fn needs_the_graph(&self) -> bool {
         matches!(self, Self::Paths(_) | Self::Whole(Examination::Liveness))
+    }
+
+    /// What a marking must have to decide the question, or to raise what is known of it.
+    pub(super) fn aim(&self) -> Option<explore::Goal> {
+        match self {
+            Self::Goal(goal) => aim(goal.formula, goal.is_existential),
+            Self::Most(most) => Some(most.aim()),
+            Self::Whole(_) | Self::Paths(_) => None,
+        }
+    }
+
+    /// What a run says, which has been replayed then. It leads to the aim, or that is an error.
+    pub(super) fn reached(&self, net: &Net, firings: Vec<TransitionId>) -> Option<Reply> {
+        let last = match last_marking(net, &firings) {
+            Ok(last) => last,
+            Err(what) => return Some(refuted(&what)),
+        };
+        match self {
+            Self::Goal(goal) => Some(goal.shown_by(net, firings, &last, false)),
+            Self::Most(most) => {
+                let before = most.tokens.fetch_max(most.sum(|place| last.on(place)), Ordering::Relaxed);
+                let is_more = before < most.tokens.load(Ordering::Relaxed);
+                (!is_more).then(|| refuted("the last marking has no more tokens"))
+            }
+            Self::Whole(_) | Self::Paths(_) => None,
+        }
+    }
+
+    /// What it means that the aim cannot be reached.
+    pub(super) fn absent(&self) -> Option<Reply> {
+        match self {
+            Self::Goal(goal) if goal.is_existential => Some(Reply::Violated(None)),
+            Self::Goal(_) => Some(Reply::Holds(None)),
+            Self::Most(most) => Some(Reply::Most(most.tokens.load(Ordering::Relaxed))),
+            Self::Whole(_) | Self::Paths(_) => None,
+        }
     }
 
     fn look(&self, view: &View<'_>) {
@@ -140,24 +179,38 @@ impl Goal<'_> {
                 "the way to a marking is lost, which is an error in Petril; please report it".to_owned(),
             );
         };
-        let run = Run { firings: firings.into_iter().map(TransitionId::at).collect(), ..Run::default() };
-        match replayed(net, &run) {
-            Ok(markings) => {
-                let last = &markings[markings.len() - 1];
-                if self.formula.holds_in(&Played(net, last)) != Some(self.is_existential) {
-                    return refuted("the last marking does not show it");
-                }
-                if self.is_existential { Reply::Holds(Some(run)) } else { Reply::Violated(Some(run)) }
-            }
+        let firings: Vec<TransitionId> = firings.into_iter().map(TransitionId::at).collect();
+        match last_marking(net, &firings) {
+            Ok(last) => self.shown_by(net, firings, &last, true),
             Err(what) => refuted(&what),
         }
+    }
+
+    /// The reply that a run to a marking gives.
+    fn shown_by(&self, net: &Net, firings: Vec<TransitionId>, last: &Tokens, is_shortest: bool) -> Reply {
+        if self.formula.holds_in(&Played(net, last)) != Some(self.is_existential) {
+            return refuted("the last marking does not show it");
+        }
+        let run = Run { firings, is_shortest, ..Run::default() };
+        if self.is_existential { Reply::Holds(Some(run)) } else { Reply::Violated(Some(run)) }
     }
 }
 
 impl Most<'_> {
     fn look(&self, view: &View<'_>) {
-        let sum = self.places.iter().map(|place| view.tokens(place.index())).sum();
-        self.tokens.fetch_max(sum, Ordering::Relaxed);
+        self.tokens.fetch_max(self.sum(|place| view.tokens(place.index())), Ordering::Relaxed);
+    }
+
+    fn sum(&self, tokens: impl Fn(PlaceId) -> u64) -> u64 {
+        self.places.iter().map(|&place| tokens(place)).fold(0, u64::saturating_add)
+    }
+
+    /// A marking with more tokens than any known.
+    fn aim(&self) -> explore::Goal {
+        let mut terms: BTreeMap<u32, i64> = BTreeMap::new();
+        self.places.iter().for_each(|place| *terms.entry(place.index() as u32).or_default() += 1);
+        let least = i128::from(self.tokens.load(Ordering::Relaxed)) + 1;
+        explore::Goal::AtLeast { terms: terms.into_iter().collect(), least }
     }
 }
 

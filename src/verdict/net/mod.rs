@@ -1,7 +1,9 @@
 //! Questions about a net alone, all answered by one exploration: what can be reached, on the way (`hunt`); what speaks of paths,
 //! on the whole graph (`paths`). Every run is replayed by the plain firing rule (`replay`).
 
+mod aim;
 mod atoms;
+mod equation;
 mod examination;
 mod explain;
 mod hunt;
@@ -9,12 +11,15 @@ mod live;
 mod paths;
 mod replay;
 mod split;
+mod target;
+mod think;
 mod watched;
 
 pub use self::examination::Examination;
 use self::hunt::{Hunt, search};
 use self::paths::Paths;
 use self::split::Split;
+use self::think::Thinker;
 use self::watched::watched;
 use crate::explore::engine::{Exploration, Figures, Options};
 use crate::explore::{Budget, Progress, Stop};
@@ -45,8 +50,7 @@ pub enum Reply {
     Unknown(String),
 }
 
-/// A firing sequence from the initial marking, or from where it branches off another. One to a state that is looked for is
-/// shortest.
+/// A firing sequence from the initial marking, or from where it branches off another.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Run {
     /// The transitions in the order of firing.
@@ -55,6 +59,8 @@ pub struct Run {
     pub loop_start: Option<usize>,
     /// What else is to be shown on the way.
     pub branches: Vec<Branch>,
+    /// Whether it is known that none shorter shows the same.
+    pub is_shortest: bool,
 }
 
 /// A formula that holds on the way of a run.
@@ -82,7 +88,7 @@ pub struct NetReport {
 /// Called now and then with how far the work is; gives a reason to stop.
 type Watch<'w> = &'w mut (dyn FnMut(&Progress) -> Option<String> + 'w);
 
-/// States of the first exploration for formulas about paths. Many are decided near the initial state.
+/// States of the first exploration.
 const FIRST: u64 = 100_000;
 
 /// So many times as many states are explored next.
@@ -91,7 +97,8 @@ const GROWTH: u64 = 16;
 /// Explores a net until every question is answered, or the options or `watch` end it. Every run has been replayed by the plain
 /// firing rule.
 ///
-/// Formulas about paths are tried on a part of the states first, then on larger ones, for what is left.
+/// A part of the states comes first, which is all of a small net. What is open then is thought about (`think`), and larger parts
+/// follow.
 #[must_use]
 pub fn judge(
     net: &Net,
@@ -102,20 +109,25 @@ pub fn judge(
     let mut hunts = Vec::new();
     let splits: Vec<Split<'_>> = questions.iter().map(|question| Split::of(question, net, &mut hunts)).collect();
     let mut replies: Vec<Option<Reply>> = vec![None; hunts.len()];
-    // Whatever answers a goal (`Hunt::Goal`) without going through the states has its place here.
-    let mut states = FIRST;
+    let mut thinker = None;
+    let mut states = FIRST.min(options.budget.states);
     loop {
         let open = open(&splits, &replies);
         let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| &hunts[at]).collect();
-        if !wanted.iter().any(|hunt| hunt.looks_at_the_whole()) {
-            states = options.budget.states;
-        }
-        let budget = Budget { states: states.min(options.budget.states), ..options.budget };
+        let budget = Budget { states, ..options.budget };
         let exploration = search(net, &wanted, &Options { budget, ..*options }, watch);
-        let (found, reason) = answers(net, &wanted, &exploration, &budget, watch);
+        let (found, mut reason) = answers(net, &wanted, &exploration, &budget, watch);
         open.iter().zip(found).for_each(|(&at, reply)| replies[at] = reply);
-        let is_partial = exploration.stop == Stop::States(states) && states < options.budget.states;
-        if reason.is_some() || !is_partial || self::open(&splits, &replies).is_empty() {
+        let is_partial = exploration.stop == Stop::States(states);
+        let open = self::open(&splits, &replies);
+        if reason.is_none() && is_partial && !open.is_empty() {
+            let thinker = thinker.get_or_insert_with(|| Thinker::new(net, &hunts));
+            let found;
+            (found, reason) = thinker.round(&open, states, options, watch);
+            found.into_iter().for_each(|(at, reply)| replies[at] = Some(reply));
+        }
+        let is_last = !is_partial || states == options.budget.states;
+        if reason.is_some() || is_last || self::open(&splits, &replies).is_empty() {
             let reason = reason.unwrap_or_else(|| exploration.stop.to_string());
             let reply = |split: &Split<'_>| {
                 let unknown = || Reply::Unknown(split.reason(&replies).unwrap_or(&reason).to_owned());
@@ -124,7 +136,7 @@ pub fn judge(
             let replies = splits.iter().map(reply).collect();
             return NetReport { replies, figures: exploration.figures, stop: exploration.stop };
         }
-        states = states.saturating_mul(GROWTH);
+        states = states.saturating_mul(GROWTH).min(options.budget.states);
     }
 }
 

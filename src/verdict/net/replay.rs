@@ -16,17 +16,30 @@ pub(super) fn replayed(net: &Net, run: &Run) -> Result<Vec<Tokens>, String> {
     let mut tokens = net.initial_tokens();
     let mut markings = vec![tokens.clone()];
     for &transition in &run.firings {
-        let name = net.transition(transition).name;
-        if !net.has_concession(&tokens, transition) {
-            return Err(format!("`{name}` is not enabled"));
-        }
-        net.play(&mut tokens, transition).map_err(|_| format!("`{name}` puts too many tokens"))?;
+        fire(net, &mut tokens, transition)?;
         markings.push(tokens.clone());
     }
     match run.loop_start {
         Some(start) if markings[start] != tokens => Err("the loop does not close".to_owned()),
         _ => Ok(markings),
     }
+}
+
+/// The last marking of a run, by the plain firing rule.
+pub(super) fn last_marking(net: &Net, firings: &[TransitionId]) -> Result<Tokens, String> {
+    let mut tokens = net.initial_tokens();
+    for &transition in firings {
+        fire(net, &mut tokens, transition)?;
+    }
+    Ok(tokens)
+}
+
+fn fire(net: &Net, tokens: &mut Tokens, transition: TransitionId) -> Result<(), String> {
+    let name = net.transition(transition).name;
+    if !net.has_concession(tokens, transition) {
+        return Err(format!("`{name}` is not enabled"));
+    }
+    net.play(tokens, transition).map_err(|_| format!("`{name}` puts too many tokens"))
 }
 
 /// A marking of the replay.

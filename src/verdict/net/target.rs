@@ -49,7 +49,9 @@ impl<'n> Target<'n> {
                 let terms = terms.iter().map(|&(id, factor)| (place(id), factor)).collect();
                 Goal::AtLeast { terms, least: *least }
             }
-            Goal::Enabled(id) => transition(*id).map_or_else(|| Goal::All(needs(*id).map(enough).collect()), Goal::Enabled),
+            Goal::Enabled(id) => {
+                transition(*id).map_or_else(|| Goal::All(needs(*id).map(enough).collect()), Goal::Enabled)
+            }
             Goal::Disabled(id) => {
                 transition(*id).map_or_else(|| Goal::Any(needs(*id).map(too_few).collect()), Goal::Disabled)
             }

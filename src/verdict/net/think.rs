@@ -42,27 +42,34 @@ struct Case<'n, 'h> {
 }
 
 impl<'n, 'h> Thinker<'n, 'h> {
-    /// Takes up what is a goal of the hunts, each with its number.
-    pub(super) fn new(net: &'n Net, hunts: impl Iterator<Item = (usize, &'h Hunt<'h>)>) -> Self {
-        let case = |(at, hunt): (usize, &'h Hunt<'h>)| {
-            Some(Case { hunt, at, aim: hunt.aim()?, target: None, reply: None })
-        };
-        Self { net, model: Model::from(net), cases: hunts.filter_map(case).collect(), has_begun: false }
+    /// Takes up the hunts that have a goal.
+    pub(super) fn new(net: &'n Net, hunts: &'h [Hunt<'h>]) -> Self {
+        let case =
+            |(at, hunt): (usize, &'h Hunt<'h>)| Some(Case { hunt, at, aim: hunt.aim()?, target: None, reply: None });
+        Self {
+            net,
+            model: Model::from(net),
+            cases: hunts.iter().enumerate().filter_map(case).collect(),
+            has_begun: false,
+        }
     }
 
-    /// Whether it has taken up a hunt.
-    pub(super) fn has(&self, at: usize) -> bool {
-        self.cases.iter().any(|case| case.at == at)
-    }
-
-    /// Looks for replies with up to so many states for each goal, until `watch` gives a reason to stop. Returns those found,
-    /// and the reason.
+    /// Looks for replies to those of the hunts that are open, with up to so many states for each goal, until `watch` gives a
+    /// reason to stop. Returns those found, and the reason.
     pub(super) fn round(
         &mut self,
+        open: &[usize],
         states: u64,
         options: &Options,
         watch: Watch<'_>,
     ) -> (Vec<(usize, Reply)>, Option<String>) {
+        self.cases.retain(|case| open.binary_search(&case.at).is_ok());
+        for case in &mut self.cases {
+            // The search may have raised it.
+            if let Some(aim) = case.hunt.aim() {
+                case.aim = aim;
+            }
+        }
         let reason = self.work(states, options, watch).err();
         let (done, open): (Vec<_>, Vec<_>) = self.cases.drain(..).partition(|case| case.reply.is_some());
         self.cases = open;
