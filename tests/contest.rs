@@ -14,7 +14,7 @@ use petril::explore::{Budget, Graph, MarkingSpace, Stop, engine, explore};
 use petril::logic::{Bound, Dag, MarkingValuation, Nodes, Valuation, bind_in_net, label, parse_formula};
 use petril::net::{Net, PlaceId, TransitionId};
 use petril::source::Source;
-use petril::verdict::{Question, Reply, judge};
+use petril::verdict::{Examination, Question, Reply, Run, judge};
 
 /// The markings of a net.
 struct Markings<'n> {
@@ -70,7 +70,11 @@ fn judged(net: &Net, properties: &[mcc::Property], nodes: &Nodes<'_>) -> Vec<Str
         }
     };
     let questions: Vec<Question> = properties.iter().map(question).collect();
-    let report = judge(net, &questions, &Options { threads: 2, ..Options::default() }, &mut |_| None);
+    replies(net, &questions)
+}
+
+fn replies(net: &Net, questions: &[Question]) -> Vec<String> {
+    let report = judge(net, questions, &Options { threads: 2, ..Options::default() }, &mut |_| None);
     let answer = |reply: &Reply| match reply {
         Reply::Holds(_) => "TRUE".to_owned(),
         Reply::Violated(_) => "FALSE".to_owned(),
@@ -181,6 +185,47 @@ fn answers_are_shown_by_runs() {
     assert_eq!(run(r#"AF marked("on2")"#), "violated: switch1 back1 / Some(0)");
     assert_eq!(run(r#"EG !marked("on2")"#), "holds: switch1 back1 / Some(0)");
     assert_eq!(run(r#"AG EF enabled("switch2")"#), "violated: switch2 / None");
+}
+
+/// What cannot be told by one run is told by runs that branch off it, and by what holds where they end.
+#[test]
+fn answers_are_shown_by_trees() {
+    let net = tina::read(&Source::new("lamps.net", LAMPS)).unwrap().net;
+    fn told(run: &Run, net: &Net) -> String {
+        let mut parts: Vec<String> = run.firings.iter().map(|&id| net.transition(id).name.to_owned()).collect();
+        parts.extend(run.loop_start.map(|start| format!("again {start}")));
+        for branch in &run.branches {
+            let run = branch.run.as_ref().map(|run| format!(": {}", told(run, net))).unwrap_or_default();
+            parts.push(format!("[{} {}{run}]", branch.at, branch.formula.text_in_net(net)));
+        }
+        parts.join(" ")
+    }
+    let tree = |question: Question| match &judge(&net, &[question], &Options::default(), &mut |_| None).replies[0] {
+        Reply::Holds(run) => format!("holds: {}", run.as_ref().map(|run| told(run, &net)).unwrap_or_default()),
+        Reply::Violated(run) => format!("violated: {}", run.as_ref().map(|run| told(run, &net)).unwrap_or_default()),
+        other => panic!("{other:?}"),
+    };
+    let formula = |text: &str| {
+        let parsed = parse_formula("f", &Source::new("f", text)).unwrap();
+        tree(Question::Holds(bind_in_net(&parsed.formula, &Nodes::by_name(&net)).unwrap()))
+    };
+    // With lamp 2 on, lamp 1 can be switched for ever, and it can break.
+    assert_eq!(
+        formula(r#"EF (marked("on2") & EG !marked("broken") & EF marked("broken"))"#),
+        r#"holds: switch2 switch1 break2 [1 marked("on2") & EG !marked("broken"): switch1 back1 again 0]"#
+    );
+    assert_eq!(formula(r#"AG EF enabled("switch2")"#), r#"violated: switch2 [1 AG !enabled("switch2")]"#);
+    assert_eq!(
+        formula(r#"EF marked("broken") & !AF marked("on2")"#),
+        r#"holds: [0 EF marked("broken"): switch1 switch2 break2] [0 !AF marked("on2"): switch1 back1 again 0]"#
+    );
+    assert_eq!(tree(Examination::ReachabilityDeadlock.question()), "holds: switch1 switch2 break2");
+    assert_eq!(tree(Examination::OneSafe.question()), "holds: ");
+    assert_eq!(tree(Examination::StableMarking.question()), "violated: ");
+    assert_eq!(tree(Examination::QuasiLiveness.question()), "holds: ");
+    let dead: Vec<String> =
+        ["switch1", "back1", "switch2", "break2"].map(|name| format!("[3 AG !enabled(\"{name}\")]")).into();
+    assert_eq!(tree(Examination::Liveness.question()), format!("violated: switch1 switch2 break2 {}", dead.join(" ")));
 }
 
 /// States, firings and tokens are those of the contest, on the nets of up to 300,000 states.
@@ -306,6 +351,12 @@ fn answers_are_those_of_the_contest() {
                 let answers = properties.iter().map(|property| markings.answer(&property.query, &nodes));
                 assert_eq!(answers.collect::<Vec<_>>(), expected, "{name}: {file}");
             }
+        }
+        for (examination, short) in Examination::ALL.into_iter().zip(["RD", "OS", "SM", "QL", "L"]) {
+            let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
+            let line = oracle.lines().find_map(|line| line.strip_prefix(&format!("FORMULA {} ", examination.name())));
+            let expected = line.and_then(|line| line.split(' ').next()).unwrap();
+            assert_eq!(replies(&read.net, &[examination.question()]), [expected], "{name}: {examination:?}");
         }
         checked.push(name.to_owned());
     }

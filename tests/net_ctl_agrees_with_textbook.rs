@@ -11,10 +11,10 @@ use petril::explore::engine::{Model, Options};
 use petril::logic::{Bound, Comparison, Term, Valuation};
 use petril::net::{Builder, Net, PlaceId, Tokens, TransitionId};
 use petril::semantics::VarId;
-use petril::verdict::{Question, Reply, Run, judge};
+use petril::verdict::{Examination, Question, Reply, Run, judge};
 use proptest::prelude::*;
 use support::naive_ctl::Kripke;
-use support::naive_nets::{Marking, search};
+use support::naive_nets::{Marking, Naive, fire, search};
 use support::random_formula;
 
 const PLACES: usize = 4;
@@ -68,7 +68,7 @@ impl Valuation for At<'_> {
         self.1[place.index()]
     }
     fn is_enabled(&self, transition: TransitionId) -> bool {
-        support::naive_nets::fire(&self.0.transitions[transition.index()], self.1).is_some()
+        fire(&self.0.transitions[transition.index()], self.1).is_some()
     }
     fn is_deadlock(&self) -> bool {
         (0..TRANSITIONS).all(|transition| !self.is_enabled(TransitionId::at(transition)))
@@ -107,12 +107,42 @@ fn play(net: &Net, run: &Run, from: &Tokens) {
     }
 }
 
+/// The answers to the contest's examinations, in their order, by their definitions.
+fn examined(net: &Net, naive: &Naive) -> Vec<bool> {
+    let model = Model::from(net);
+    let markings = || naive.markings.keys();
+    let enabled = |marking: &Marking| {
+        (0..TRANSITIONS).filter(|&t| fire(&model.transitions[t], marking).is_some()).collect::<Vec<usize>>()
+    };
+    // For each marking, the transitions that can still fire.
+    let mut can: BTreeMap<&Marking, Vec<bool>> = markings().map(|m| (m, vec![false; TRANSITIONS])).collect();
+    for _ in 0..=naive.markings.len() {
+        for (from, transition, to) in &naive.steps {
+            let mut later = can[to].clone();
+            later[*transition] = true;
+            can.entry(from).and_modify(|own| own.iter_mut().zip(later).for_each(|(own, later)| *own |= later));
+        }
+    }
+    let is_stable = |place: usize| markings().all(|marking| marking[place] == model.initial[place]);
+    vec![
+        markings().any(|marking| enabled(marking).is_empty()),
+        markings().flatten().all(|&tokens| tokens <= 1),
+        (0..PLACES).any(is_stable),
+        can[&model.initial].iter().all(|&can| can),
+        can.values().flatten().all(|&can| can),
+    ]
+}
+
 /// The answers, which may be missing if there is a limit.
 fn judged(net: &Net, formulas: &[Bound], states: u64, threads: usize) -> Vec<Option<bool>> {
     let questions: Vec<Question> = formulas.iter().cloned().map(Question::Holds).collect();
+    answered(net, &questions, states, threads)
+}
+
+fn answered(net: &Net, questions: &[Question], states: u64, threads: usize) -> Vec<Option<bool>> {
     let budget = Budget { states, ..Budget::default() };
     let options = Options { budget, threads, ..Options::default() };
-    let report = judge(net, &questions, &options, &mut |_| None);
+    let report = judge(net, questions, &options, &mut |_| None);
     let answer = |reply: &Reply| {
         let (holds, run) = match reply {
             Reply::Holds(run) => (true, run),
@@ -130,7 +160,18 @@ fn judged(net: &Net, formulas: &[Bound], states: u64, threads: usize) -> Vec<Opt
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn examinations_are_those_of_their_definitions(net in nets(), limit in 1..30_u64, threads in 1..3_usize) {
+        let Some(naive) = search(&Model::from(&net), 100) else { return Ok(()) };
+        let expected: Vec<Option<bool>> = examined(&net, &naive).into_iter().map(Some).collect();
+        let questions = Examination::ALL.map(Examination::question);
+        prop_assert_eq!(&answered(&net, &questions, 1000, threads), &expected);
+        for (part, whole) in answered(&net, &questions, limit, threads).iter().zip(&expected) {
+            prop_assert!(part.is_none() || part == whole, "{part:?} of {limit} states, {whole:?} of all");
+        }
+    }
 
     #[test]
     fn answers_are_those_of_the_textbook(

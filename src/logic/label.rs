@@ -55,6 +55,14 @@ pub fn label_from(
     (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
 }
 
+/// The states from which a path leads to a set, as far as steps are known. If `stopping` is set meanwhile, some may be missing.
+#[must_use]
+pub fn leading_to(graph: &Graph, set: &FixedBitSet, stopping: &AtomicBool) -> FixedBitSet {
+    let mut all = FixedBitSet::with_capacity(graph.len());
+    all.insert_range(..);
+    Labeller { graph, open: &graph.open(), fair: None, stopping }.exists_until(&all, set)
+}
+
 /// The states from which a path stays in `within` and goes round for ever: those on a cycle inside it (through a fair state,
 /// if fairness is asked for), and those where paths end.
 pub(super) fn endings(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>) -> FixedBitSet {

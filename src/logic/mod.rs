@@ -26,7 +26,7 @@ pub use dag::{Dag, Node, NodeId};
 pub use domain::{DomainText, bind_domain};
 pub use evidence::{Claim, Evidence, Lasso, evidence, lasso, near_lasso, shortest};
 pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
-pub use label::{Labels, label, label_from};
+pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;
 pub use parse::{Requirement, RequirementFile, parse_domain, parse_formula, parse_requirements};
 pub use representatives::representatives;

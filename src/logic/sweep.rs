@@ -73,22 +73,19 @@ impl<'g> Shared<'g> {
     }
 }
 
-/// Tries every state of `within` once, the last first. How many joined, and how many were tried.
+/// Tries every state of `within` once, the last first. How many joined, and what it cost.
 fn sweep(
     set: &mut FixedBitSet,
     within: &FixedBitSet,
     stopping: &AtomicBool,
     joins: &mut dyn FnMut(&FixedBitSet, u32) -> bool,
 ) -> (usize, usize) {
-    let (mut joined, mut tried) = (0, 0);
+    let (mut joined, mut tried) = (0, within.as_slice().len());
     for (block, &inside) in within.as_slice().iter().enumerate().rev() {
-        let mut candidates = inside & !set.as_slice()[block];
-        if candidates == 0 {
-            continue;
-        }
         if block % 1024 == 0 && stopping.load(Ordering::Relaxed) {
             break;
         }
+        let mut candidates = inside & !set.as_slice()[block];
         tried += candidates.count_ones() as usize;
         while candidates != 0 {
             let bit = BITS - 1 - candidates.leading_zeros() as usize;

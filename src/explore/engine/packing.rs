@@ -102,6 +102,11 @@ impl Packing {
         self.places.len()
     }
 
+    /// The chunk of a place.
+    pub(super) fn chunk_of(&self, place: usize) -> usize {
+        self.places[place].0
+    }
+
     /// The places that are all empty if a place is marked whose digit does not say so for certain.
     pub(super) fn elsewhere(&self, place: usize) -> &[usize] {
         let (chunk, position) = self.places[place];

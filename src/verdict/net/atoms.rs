@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
+use super::condition::Condition;
 use crate::explore::engine::{Exploration, View};
 use crate::logic::{Bound, Dag, Node, Valuation};
 use crate::net::{PlaceId, TransitionId};
@@ -89,12 +90,14 @@ fn truths(
     let words = states.len().div_ceil(BITS);
     let mut truths = vec![0; words * formulas.len()];
     let mut tokens = vec![0; places.last().map_or(0, |place| place.index() + 1)];
+    let mut reader = exploration.reader(places.iter().map(|place| place.index()));
+    let conditions: Vec<Condition<'_>> = formulas.iter().map(|formula| Condition::of(formula)).collect();
     exploration.for_states(states.start as u32..states.end as u32, |state, view| {
-        places.iter().for_each(|place| tokens[place.index()] = view.tokens(place.index()));
+        reader.read(view, &mut tokens);
         let seen = Unpacked { tokens: &tokens, view };
         let at = state as usize - states.start;
-        for (formula, truths) in formulas.iter().zip(truths.chunks_exact_mut(words)) {
-            let holds = formula.holds_in(&seen) == Some(true);
+        for (condition, truths) in conditions.iter().zip(truths.chunks_exact_mut(words)) {
+            let holds = condition.holds(&tokens, &seen);
             truths[at / BITS] |= usize::from(holds) << (at % BITS);
         }
     });

@@ -1,4 +1,5 @@
-//! Liveness, from the strongly connected components that nothing leaves: a net is live if each of them has every transition.
+//! Liveness, from the strongly connected components that nothing leaves: a net of which every transition fires once is live if
+//! each of them has every transition.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -8,17 +9,23 @@ use super::Reply;
 use super::examination::{dead_for_ever, shown_at};
 use super::paths::Paths;
 use crate::explore::{Stop, components};
-use crate::logic::Valuation;
+use crate::logic::{Valuation, leading_to};
 use crate::net::TransitionId;
 
 /// Whether the net is live, as far as the states tell that. A transition that fires no more is shown where it was lost.
 pub(super) fn live(paths: &Paths<'_>, stopping: &AtomicBool) -> Option<Reply> {
     let Paths { net, exploration, graph } = paths;
-    let mut all = FixedBitSet::with_capacity(graph.len());
-    all.insert_range(..);
-    let components = components(graph, &all);
+    let mut initial = FixedBitSet::with_capacity(graph.len());
+    initial.insert(0);
+    // From the others no way leads back. If there are none, all states are one component.
+    let mut others = leading_to(graph, &initial, stopping);
+    others.toggle_range(..);
+    if stopping.load(Ordering::Relaxed) {
+        return None;
+    }
+    let components = components(graph, &others);
     let mut is_left = FixedBitSet::with_capacity(components.count);
-    for state in graph.ids() {
+    for state in others.ones().map(|state| state as u32) {
         let own = components.of[state as usize];
         // The state that stands for the unknown ones has no steps, and tells nothing.
         let leads_on = graph.successors(state).iter().any(|&next| components.of[next as usize] != own);
@@ -38,7 +45,7 @@ pub(super) fn live(paths: &Paths<'_>, stopping: &AtomicBool) -> Option<Reply> {
     let mut fired = FixedBitSet::with_capacity(count * transitions);
     let number = |state: u32| {
         let component = components.of[state as usize] as usize;
-        (!is_left.contains(component)).then(|| numbers[component])
+        (others.contains(state as usize) && !is_left.contains(component)).then(|| numbers[component])
     };
     exploration.for_each_state(|state, view| {
         if let Some(number) = number(state) {
@@ -51,7 +58,8 @@ pub(super) fn live(paths: &Paths<'_>, stopping: &AtomicBool) -> Option<Reply> {
     };
     let is_full: Vec<bool> =
         (0..count).map(|n| fired.count_ones(n * transitions..(n + 1) * transitions) == transitions).collect();
-    let state = graph.ids().find(|&state| number(state).is_some_and(|number| !is_full[number]));
+    let state =
+        others.ones().map(|state| state as u32).find(|&state| number(state).is_some_and(|number| !is_full[number]));
     let Some(state) = state else { return (*graph.stop() == Stop::Complete).then_some(Reply::Holds(None)) };
     let lost: Vec<TransitionId> = lost(state).into_iter().map(TransitionId::at).collect();
     let marking = exploration.marking(state)?;

@@ -3,6 +3,7 @@
 
 mod aim;
 mod atoms;
+mod condition;
 mod equation;
 mod examination;
 mod explain;

@@ -1,0 +1,47 @@
+//! The tokens of some places, state after state.
+
+use super::exploration::Exploration;
+use super::view::View;
+
+/// Reads the tokens of some places. States that follow each other agree in most of them, so a chunk whose value is that of the
+/// state before is left alone.
+pub struct Reader {
+    /// Chunks with the places to be read there, and the value last read.
+    chunks: Vec<(usize, Vec<usize>, Option<u64>)>,
+    /// Places whose tokens depend on other chunks too.
+    others: Vec<usize>,
+}
+
+impl Exploration {
+    /// A reader of these places.
+    #[must_use]
+    pub fn reader(&self, places: impl Iterator<Item = usize>) -> Reader {
+        let packing = &self.machine.packing;
+        let mut reader = Reader { chunks: Vec::new(), others: Vec::new() };
+        for place in places {
+            let chunk = packing.chunk_of(place);
+            if !packing.elsewhere(place).is_empty() {
+                reader.others.push(place);
+            } else if let Some((_, places, _)) = reader.chunks.iter_mut().find(|(known, ..)| *known == chunk) {
+                places.push(place);
+            } else {
+                reader.chunks.push((chunk, vec![place], None));
+            }
+        }
+        reader
+    }
+}
+
+impl Reader {
+    /// Puts the tokens of the places into `tokens`, which has to be the same list each time.
+    pub fn read(&mut self, view: &View<'_>, tokens: &mut [u64]) {
+        for (chunk, places, last) in &mut self.chunks {
+            let value = Some(view.packing.chunks[*chunk].get(view.words));
+            if *last != value {
+                places.iter().for_each(|&place| tokens[place] = view.tokens(place));
+                *last = value;
+            }
+        }
+        self.others.iter().for_each(|&place| tokens[place] = view.tokens(place));
+    }
+}
