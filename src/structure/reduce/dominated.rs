@@ -9,10 +9,6 @@
 //!
 //! Source: redundant transitions, Berthelot 1987; the second and third, Thierry-Mieg 2020, "Structural reductions revisited".
 
-use std::hash::{Hash, Hasher};
-
-use rustc_hash::FxHasher;
-
 use super::draft::{Draft, effect, is_covered, sum};
 use super::{Property, Rule};
 
@@ -21,12 +17,8 @@ const COMPARED: usize = 64;
 
 /// Removes dominated transitions.
 pub fn dominated(draft: &mut Draft) {
-    let mut all: Vec<(u64, usize, u32)> = Vec::new();
-    for id in draft.transition_ids() {
-        let mut hasher = FxHasher::default();
-        draft.effect(id).hash(&mut hasher);
-        all.push((hasher.finish(), draft.transition(id).pre.len(), id));
-    }
+    let needs = |id| (fingerprint(draft, id), draft.transition(id).pre.len(), id);
+    let mut all: Vec<(u64, usize, u32)> = draft.transition_ids().map(needs).collect();
     all.sort_unstable();
     draft.spend(all.len());
     for group in all.chunk_by(|a, b| a.0 == b.0) {
@@ -75,11 +67,13 @@ pub fn composed(draft: &mut Draft) {
     if draft.property == Property::Paths {
         return;
     }
+    let mut prints: Vec<(u64, u32)> = draft.transition_ids().map(|id| (fingerprint(draft, id), id)).collect();
+    prints.sort_unstable();
     for id in draft.transition_ids().collect::<Vec<u32>>() {
         if draft.is_tired() {
             return;
         }
-        if !draft.transition(id).is_held && is_composed(draft, id) {
+        if !draft.transition(id).is_held && is_composed(draft, &prints, id) {
             draft.remove_transition(id);
             draft.count(Rule::Composed, 1);
         }
@@ -87,32 +81,41 @@ pub fn composed(draft: &mut Draft) {
 }
 
 /// Whether two other transitions replace one.
-fn is_composed(draft: &mut Draft, id: u32) -> bool {
-    let row = draft.transition(id).clone();
-    let aim = draft.effect(id);
-    let firsts = row.pre.iter().flat_map(|&(place, _)| draft.place(place).consumers.clone()).take(COMPARED);
-    let firsts: Vec<u32> = firsts.filter(|&first| first != id).collect();
-    for first in firsts {
+fn is_composed(draft: &Draft, prints: &[(u64, u32)], id: u32) -> bool {
+    let row = draft.transition(id);
+    let (print, aim) = (fingerprint(draft, id), draft.effect(id));
+    let firsts = row.pre.iter().flat_map(|&(place, _)| &draft.place(place).consumers).take(COMPARED);
+    firsts.copied().filter(|&first| first != id).any(|first| {
         let one = draft.transition(first);
+        draft.spend(row.pre.len());
         if !is_covered(&one.pre, &row.pre) {
-            continue;
+            return false;
         }
         // What is there when the first has fired, where the transition could.
-        let Some(there) = sum([&row.pre, &one.post].into_iter()) else { continue };
+        let Some(there) = sum([&row.pre, &one.post].into_iter()) else { return false };
         let there = effect(&one.pre, &there).into_iter().map(|(place, tokens)| (place, tokens as u64)).collect();
-        // The second needs something that the first has put, or else they might as well come the other way round.
-        let seconds = one.post.iter().flat_map(|&(place, _)| &draft.place(place).consumers).take(COMPARED);
-        let found = seconds.copied().any(|second| {
-            let two = draft.transition(second);
-            let together = sum([&one.pre, &two.pre].into_iter()).zip(sum([&one.post, &two.post].into_iter()));
-            second != id
-                && is_covered(&two.pre, &there)
-                && together.is_some_and(|(pre, post)| effect(&pre, &post) == aim)
-        });
-        draft.spend(COMPARED);
-        if found {
-            return true;
-        }
-    }
-    false
+        // The second has to do the rest.
+        let rest = print.wrapping_sub(fingerprint(draft, first));
+        let start = prints.partition_point(|&(print, _)| print < rest);
+        let seconds = prints[start..].iter().take_while(|&&(print, _)| print == rest).take(COMPARED);
+        seconds.map(|&(_, second)| second).filter(|&second| second != id && !draft.transition(second).is_gone).any(
+            |second| {
+                let two = draft.transition(second);
+                let together = sum([&one.pre, &two.pre].into_iter()).zip(sum([&one.post, &two.post].into_iter()));
+                is_covered(&two.pre, &there) && together.is_some_and(|(pre, post)| effect(&pre, &post) == aim)
+            },
+        )
+    })
+}
+
+/// A number for what a firing changes: the sum of the numbers of two transitions is that of both firings together.
+fn fingerprint(draft: &Draft, id: u32) -> u64 {
+    let row = draft.transition(id);
+    let weigh = |&(place, weight): &(u32, u64)| {
+        // Any odd constants without a pattern will do.
+        let mixed = (u64::from(place) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        (mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9).wrapping_mul(weight)
+    };
+    let sum = |row: &[(u32, u64)]| row.iter().map(weigh).fold(0, u64::wrapping_add);
+    sum(&row.post).wrapping_sub(sum(&row.pre))
 }

@@ -13,6 +13,9 @@ pub type Row = Vec<(u32, u64)>;
 /// Weights and tokens are smaller than this, so that sums of two fit.
 pub const MANY: u64 = 1 << 62;
 
+/// Places with more arcs are hubs.
+const HUB: usize = 256;
+
 /// A place.
 #[derive(Clone, Debug, Default)]
 pub struct Place {
@@ -48,6 +51,8 @@ pub struct Draft {
     /// Places with changes around them that no local rule has seen yet.
     waiting: VecDeque<u32>,
     is_waiting: Vec<bool>,
+    /// The same for places with many arcs: they are looked at once a round.
+    hubs: Vec<u32>,
     rules: Vec<Rule>,
     work: Cell<u64>,
 }
@@ -77,6 +82,7 @@ impl Draft {
             log: Log::new(transitions.len()),
             waiting: (0..places.len() as u32).collect(),
             is_waiting: vec![true; places.len()],
+            hubs: Vec::new(),
             places,
             transitions,
             property: keep.property,
@@ -169,9 +175,16 @@ impl Draft {
         None
     }
 
+    /// The next round begins: places with many arcs wait with the others.
+    pub fn wake_hubs(&mut self) {
+        self.waiting.extend(self.hubs.drain(..));
+    }
+
     fn wake(&mut self, place: u32) {
+        let Place { producers, consumers, .. } = &self.places[place as usize];
+        let is_hub = producers.len() + consumers.len() > HUB;
         if !std::mem::replace(&mut self.is_waiting[place as usize], true) {
-            self.waiting.push_back(place);
+            if is_hub { self.hubs.push(place) } else { self.waiting.push_back(place) }
         }
     }
 

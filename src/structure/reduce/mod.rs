@@ -113,6 +113,7 @@ pub fn reduce_with<'n>(net: &'n Net, keep: &Keep, options: &Options) -> Reduced<
     for _ in 0..options.rounds {
         let before = draft.applied;
         everywhere(&mut draft);
+        draft.wake_hubs();
         while let Some(place) = draft.next_waiting().filter(|_| !draft.is_tired()) {
             around(&mut draft, place);
         }
