@@ -176,7 +176,7 @@ fn answers_on_reduced_nets_are_those_of_the_contest() {
                         questions.push((property.id.clone(), *release, true, expected.to_owned()));
                     }
                     Bound::Until { hold, .. } => {
-                        questions.push((property.id.clone(), *hold, false, expected.to_owned()))
+                        questions.push((property.id.clone(), *hold, false, expected.to_owned()));
                     }
                     _ => {}
                 }

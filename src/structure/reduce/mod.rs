@@ -126,7 +126,8 @@ pub fn reduce_with<'n>(net: &'n Net, keep: &Keep, options: &Options) -> Reduced<
 
 /// The rules that go over the whole net.
 fn everywhere(draft: &mut Draft) {
-    const RULES: [(Rule, fn(&mut Draft)); 9] = [
+    type Apply = fn(&mut Draft);
+    const RULES: [(Rule, Apply); 9] = [
         (Rule::Dead, dead::apply),
         (Rule::Alive, alive::apply),
         (Rule::Irrelevant, irrelevant::apply),
