@@ -43,15 +43,18 @@ pub const APART: &str = "_x_";
 /// The name that an escaped one stands for; `None` if it is none.
 #[must_use]
 pub fn unescaped(text: &str) -> Option<String> {
-    let mut pieces = text.split("_x");
-    let mut name = pieces.next()?.to_owned();
-    for piece in pieces {
-        let (number, rest) = piece.split_once('_')?;
+    let mut name = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, escape)) = rest.split_once("_x") {
+        // An escape ends with a `_` that begins no other.
+        let (number, behind) = escape.split_once('_')?;
+        name += before;
         if !number.is_empty() {
             name.push(char::from_u32(u32::from_str_radix(number, 16).ok()?)?);
         }
-        name += rest;
+        rest = behind;
     }
+    name += rest;
     Some(name)
 }
 
