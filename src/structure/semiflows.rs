@@ -53,6 +53,7 @@ pub struct Solutions {
 pub fn semiflows(rows: Vec<Row>, count: usize, columns: usize, wanted: Wanted, limits: Limits) -> Solutions {
     let mut tableau = Tableau::new(count, columns, wanted, limits);
     rows.into_iter().filter(|row| row.is(wanted)).for_each(|row| tableau.add(row));
+    tableau.sort();
     while let Some(&(_, _, column)) = tableau.order.first() {
         tableau.eliminate(column);
     }
@@ -76,6 +77,10 @@ struct Tableau {
     beginning: Vec<Vec<u32>>,
     /// How many rows gain and lose by each column.
     counts: Vec<(u64, u64)>,
+    /// Columns counted anew, which may stand in a wrong place of the order.
+    counted: Vec<u32>,
+    /// Where each column stands in the order, if it does.
+    costs: Vec<Option<i64>>,
     /// The columns that rows change, that whose elimination adds the fewest rows first; the others in no particular order,
     /// since along a path of places one row would become ever longer if it were followed.
     order: BTreeSet<(i64, u32, u32)>,
@@ -93,6 +98,8 @@ impl Tableau {
             changing: vec![Vec::new(); columns],
             beginning: vec![Vec::new(); rows],
             counts: vec![(0, 0); columns],
+            counted: Vec::new(),
+            costs: vec![None; columns],
             order: BTreeSet::new(),
         }
     }
@@ -114,15 +121,25 @@ impl Tableau {
     }
 
     fn count(&mut self, row: &Row, sign: i64) {
-        let cost = |(gain, lose): (u64, u64)| (gain * lose) as i64 - (gain + lose) as i64;
         for &(column, change) in &row.changes {
-            let scattered = column.wrapping_mul(0x9E37_79B9);
-            let counts = &mut self.counts[column as usize];
-            self.order.remove(&(cost(*counts), scattered, column));
-            let one = if change > 0 { &mut counts.0 } else { &mut counts.1 };
+            let (gain, lose) = &mut self.counts[column as usize];
+            let one = if change > 0 { gain } else { lose };
             *one = one.wrapping_add_signed(sign);
-            if *counts != (0, 0) {
-                self.order.insert((cost(*counts), scattered, column));
+            self.counted.push(column);
+        }
+    }
+
+    /// Puts columns that were counted anew in their places.
+    fn sort(&mut self) {
+        let cost = |(gain, lose): (u64, u64)| (gain * lose) as i64 - (gain + lose) as i64;
+        for column in self.counted.drain(..) {
+            let counts = self.counts[column as usize];
+            let now = (counts != (0, 0)).then(|| cost(counts));
+            let before = std::mem::replace(&mut self.costs[column as usize], now);
+            if before != now {
+                let scattered = column.wrapping_mul(0x9E37_79B9);
+                before.map(|cost| self.order.remove(&(cost, scattered, column)));
+                now.map(|cost| self.order.insert((cost, scattered, column)));
             }
         }
     }
@@ -161,6 +178,7 @@ impl Tableau {
         self.all &= fresh.len() <= room;
         fresh.truncate(room);
         fresh.into_iter().for_each(|row| self.add(row));
+        self.sort();
     }
 
     /// Takes steps from those left; false if there are none.

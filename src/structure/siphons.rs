@@ -29,6 +29,9 @@ impl Default for SiphonLimits {
     }
 }
 
+/// Which part of the steps left the search may take that begins with one place.
+const SHARE: u64 = 8;
+
 /// The sets found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Siphons {
@@ -42,13 +45,19 @@ pub struct Siphons {
 #[must_use]
 pub fn minimal_siphons(flow: &Flow, limits: SiphonLimits) -> Siphons {
     let mut search = Search::new(flow, limits);
+    let mut left = limits.steps;
+    let mut all = true;
     for place in 0..flow.places() {
-        search.from(place as u32);
-        if search.is_over() {
+        // No place may take all steps from the others.
+        let share = (left / SHARE).max(1);
+        search.steps = share;
+        all &= search.from(place as u32);
+        left = left.saturating_sub(share - search.steps);
+        if left == 0 || search.found.len() > limits.count {
+            all = false;
             break;
         }
     }
-    let all = !search.is_over();
     search.found.truncate(limits.count);
     Siphons { found: search.found, all }
 }
@@ -115,34 +124,41 @@ impl<'f> Search<'f> {
         self.steps = self.steps.saturating_sub(steps as u64);
     }
 
-    /// Finds the minimal siphons with a place and none of those that are shut out; then shuts it out too.
-    fn from(&mut self, place: u32) {
+    /// Finds the minimal siphons with a place and none of those that are shut out; then shuts it out too. False if a limit ended
+    /// the search.
+    fn from(&mut self, place: u32) -> bool {
         if self.belongs[place as usize] != Belongs::Open {
-            return;
+            return true;
         }
         let start = self.trail.len();
         // Places taken in by choice, with the length of the trail before. What follows from shutting them out comes after.
         let mut choices: Vec<(u32, usize)> = Vec::new();
         self.take_in(place);
-        while !self.is_over() {
+        let is_done = loop {
+            if self.is_over() {
+                break false;
+            }
             if let Some(choice) = self.choice() {
                 choices.push((choice, self.trail.len()));
                 self.take_in(choice);
-                continue;
+            } else if !self.is_over() && !self.turn(&mut choices) {
+                break true;
             }
-            // Back to the last choice that can be made otherwise.
-            loop {
-                let Some((choice, trail)) = choices.pop() else {
-                    self.undo(start);
-                    self.shut_out(place);
-                    return;
-                };
-                self.undo(trail);
-                if self.shut_out(choice) {
-                    break;
-                }
+        };
+        self.undo(start);
+        self.shut_out(place);
+        is_done
+    }
+
+    /// Goes back to the last choice that can be made otherwise, and shuts its place out. False if there is none.
+    fn turn(&mut self, choices: &mut Vec<(u32, usize)>) -> bool {
+        while let Some((choice, trail)) = choices.pop() {
+            self.undo(trail);
+            if self.shut_out(choice) {
+                return true;
             }
         }
+        false
     }
 
     /// A place that may be taken in next; nothing if the set is a siphon, which is noted if it is minimal, or can never become a
