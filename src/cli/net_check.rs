@@ -10,7 +10,7 @@ use petril::explore::engine::Options;
 use petril::logic::{Nodes, bind_in_net, parse_formula};
 use petril::net::{Located, PlaceId, TransitionId};
 use petril::source::Source;
-use petril::verdict::{Question, Reply, Run, judge};
+use petril::verdict::{Means, Question, Reply, Run, judge};
 use serde_json::json;
 
 use super::args::{NetCheck, TraceForm};
@@ -27,8 +27,12 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let options = Options { budget: arguments.on.limits.budget(), threads: threads(&arguments.on.limits), keep: true };
     let report = judge(net, &questions, &options, &mut |progress| watcher.watch(progress));
     watcher.finish();
-    let answers: Vec<Answer<'_>> =
-        names.iter().zip(&report.replies).map(|(name, reply)| Answer { name, reply, located: &located }).collect();
+    let found = report.replies.iter().zip(&report.means);
+    let answers: Vec<Answer<'_>> = names
+        .iter()
+        .zip(found)
+        .map(|(name, (reply, means))| Answer { name, reply, means, located: &located })
+        .collect();
     if arguments.on.json {
         console.print_json(json!({
             "net": net.name(),
@@ -114,6 +118,7 @@ fn ids(located: &Located) -> Nodes<'_> {
 struct Answer<'r> {
     name: &'r str,
     reply: &'r Reply,
+    means: &'r [Means],
     located: &'r Located,
 }
 
@@ -125,6 +130,14 @@ impl Answer<'_> {
         }
     }
 
+    fn techniques(&self) -> String {
+        if matches!(self.reply, Reply::Unknown(_)) {
+            return "EXPLICIT".to_owned();
+        }
+        let techniques: Vec<String> = self.means.iter().map(Means::to_string).collect();
+        if techniques.is_empty() { "INITIAL_STATE".to_owned() } else { techniques.join(" ") }
+    }
+
     fn text(&self, trace: Option<TraceForm>) -> String {
         let mut out = String::new();
         let word = match self.reply {
@@ -133,7 +146,7 @@ impl Answer<'_> {
             Reply::Most(most) => most.to_string(),
             Reply::Unknown(_) => "CANNOT_COMPUTE".to_owned(),
         };
-        let _ = writeln!(out, "FORMULA {} {word} TECHNIQUES EXPLICIT", self.name);
+        let _ = writeln!(out, "FORMULA {} {word} TECHNIQUES {}", self.name, self.techniques());
         if let Reply::Unknown(reason) = self.reply {
             let _ = writeln!(out, "    {reason}");
         }
@@ -159,6 +172,6 @@ impl Answer<'_> {
             Reply::Unknown(reason) => (json!("unknown"), Some(reason)),
         };
         let trace = self.run().map(|run| net_run::json(run, &self.located.net));
-        json!({ "name": self.name, "verdict": verdict, "reason": reason, "trace": trace })
+        json!({ "name": self.name, "verdict": verdict, "reason": reason, "techniques": self.techniques(), "trace": trace })
     }
 }

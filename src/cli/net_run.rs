@@ -60,5 +60,5 @@ pub fn json(run: &Run, net: &Net) -> serde_json::Value {
         })
     };
     let branches: Vec<serde_json::Value> = run.branches.iter().map(branch).collect();
-    json!({ "firings": firings, "loop_start": run.loop_start, "branches": branches })
+    json!({ "firings": firings, "loop_start": run.loop_start, "shortest": run.is_shortest, "branches": branches })
 }

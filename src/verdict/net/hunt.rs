@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::aim::aim;
 use super::replay::{Played, last_marking, refuted};
-use super::{Examination, Question, Reply, Run};
+use super::{Examination, Means, Question, Reply, Run};
 use crate::explore;
 use crate::explore::engine::{Exploration, Model, Options, View};
 use crate::explore::{Progress, Stop};
@@ -84,11 +84,6 @@ impl<'q> Hunt<'q> {
         }
     }
 
-    /// Whether it needs more of the states than to see each of them.
-    pub(super) fn looks_at_the_whole(&self) -> bool {
-        matches!(self, Self::Paths(_) | Self::Whole(_))
-    }
-
     /// Whether the graph can tell more than the figures.
     pub(super) fn needs_the_graph(&self) -> bool {
         matches!(self, Self::Paths(_) | Self::Whole(Examination::Liveness))
@@ -104,13 +99,13 @@ impl<'q> Hunt<'q> {
     }
 
     /// What a run says, which has been replayed then. It leads to the aim, or that is an error.
-    pub(super) fn reached(&self, net: &Net, firings: Vec<TransitionId>) -> Option<Reply> {
+    pub(super) fn reached(&self, net: &Net, firings: Vec<TransitionId>, by: Means) -> Option<Reply> {
         let last = match last_marking(net, &firings) {
             Ok(last) => last,
             Err(what) => return Some(refuted(&what)),
         };
         match self {
-            Self::Goal(goal) => Some(goal.shown_by(net, firings, &last, false)),
+            Self::Goal(goal) => Some(goal.shown_by(net, firings, &last, by == Means::StubbornSets)),
             Self::Most(most) => {
                 let before = most.tokens.fetch_max(most.sum(|place| last.on(place)), Ordering::Relaxed);
                 let is_more = before < most.tokens.load(Ordering::Relaxed);

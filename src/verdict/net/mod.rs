@@ -1,5 +1,6 @@
-//! Questions about a net alone, all answered by one exploration: what can be reached, on the way (`hunt`); what speaks of paths,
-//! on the whole graph (`paths`). Every run is replayed by the plain firing rule (`replay`).
+//! Questions about a net alone. One exploration answers all of them in a small net: what can be reached, on the way (`hunt`); what
+//! speaks of paths, on the graph (`paths`). In a larger one, goals that are left open are thought about one by one (`think`).
+//! Every run is replayed by the plain firing rule (`replay`).
 
 mod aim;
 mod atoms;
@@ -9,6 +10,7 @@ mod examination;
 mod explain;
 mod hunt;
 mod live;
+mod means;
 mod paths;
 mod replay;
 mod split;
@@ -18,6 +20,7 @@ mod watched;
 
 pub use self::examination::Examination;
 use self::hunt::{Hunt, search};
+pub use self::means::Means;
 use self::paths::Paths;
 use self::split::Split;
 use self::think::Thinker;
@@ -80,6 +83,8 @@ pub struct Branch {
 pub struct NetReport {
     /// The answers, in the order of the questions.
     pub replies: Vec<Reply>,
+    /// What each of them rests on, ascending; nothing if the initial marking is enough.
+    pub means: Vec<Vec<Means>>,
     /// What was explored.
     pub figures: Figures,
     /// Why the exploration ended. It may end as soon as all is answered.
@@ -110,6 +115,7 @@ pub fn judge(
     let mut hunts = Vec::new();
     let splits: Vec<Split<'_>> = questions.iter().map(|question| Split::of(question, net, &mut hunts)).collect();
     let mut replies: Vec<Option<Reply>> = vec![None; hunts.len()];
+    let mut means = vec![Means::Exploration; hunts.len()];
     let mut thinker = None;
     let mut states = FIRST.min(options.budget.states);
     loop {
@@ -125,7 +131,9 @@ pub fn judge(
             let thinker = thinker.get_or_insert_with(|| Thinker::new(net, &hunts));
             let found;
             (found, reason) = thinker.round(&open, states, options, watch);
-            found.into_iter().for_each(|(at, reply)| replies[at] = Some(reply));
+            for (at, reply, by) in found {
+                (replies[at], means[at]) = (Some(reply), by);
+            }
         }
         let is_last = !is_partial || states == options.budget.states;
         if reason.is_some() || is_last || self::open(&splits, &replies).is_empty() {
@@ -134,8 +142,12 @@ pub fn judge(
                 let unknown = || Reply::Unknown(split.reason(&replies).unwrap_or(&reason).to_owned());
                 split.reply(&replies).unwrap_or_else(unknown)
             };
-            let replies = splits.iter().map(reply).collect();
-            return NetReport { replies, figures: exploration.figures, stop: exploration.stop };
+            return NetReport {
+                replies: splits.iter().map(reply).collect(),
+                means: splits.iter().map(|split| split.means(&replies, &means)).collect(),
+                figures: exploration.figures,
+                stop: exploration.stop,
+            };
         }
         states = states.saturating_mul(GROWTH).min(options.budget.states);
     }

@@ -1,6 +1,6 @@
 //! Runs replayed by the plain firing rule, which shares nothing with the search.
 
-use super::{Reply, Run};
+use super::Reply;
 use crate::logic::Valuation;
 use crate::net::{Net, PlaceId, Tokens, TransitionId};
 use crate::semantics::VarId;
@@ -9,20 +9,6 @@ use crate::semantics::VarId;
 pub(super) fn refuted(what: &str) -> Reply {
     let message = "the replay refutes the search, which is an error in Petril; please report it";
     Reply::Unknown(format!("{message}: {what}"))
-}
-
-/// The markings of a run, by the plain firing rule.
-pub(super) fn replayed(net: &Net, run: &Run) -> Result<Vec<Tokens>, String> {
-    let mut tokens = net.initial_tokens();
-    let mut markings = vec![tokens.clone()];
-    for &transition in &run.firings {
-        fire(net, &mut tokens, transition)?;
-        markings.push(tokens.clone());
-    }
-    match run.loop_start {
-        Some(start) if markings[start] != tokens => Err("the loop does not close".to_owned()),
-        _ => Ok(markings),
-    }
 }
 
 /// The last marking of a run, by the plain firing rule.

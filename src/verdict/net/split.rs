@@ -2,7 +2,7 @@
 
 use super::hunt::Hunt;
 use super::replay::Played;
-use super::{Branch, Question, Reply, Run};
+use super::{Branch, Means, Question, Reply, Run};
 use crate::logic::Bound;
 use crate::net::Net;
 
@@ -94,6 +94,15 @@ impl<'q> Split<'q> {
             Self::Not(f) => f.reason(replies),
             Self::And(f, g) | Self::Or(f, g) | Self::Iff(f, g) => f.reason(replies).or_else(|| g.reason(replies)),
         }
+    }
+
+    /// What the replies to its parts rest on.
+    pub(super) fn means(&self, replies: &[Option<Reply>], means: &[Means]) -> Vec<Means> {
+        let mut all = Vec::new();
+        self.for_each_part(&mut |part| all.extend(replies[part].is_some().then_some(means[part])));
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 
     /// The numbers of the parts that it needs.

@@ -1,5 +1,6 @@
 //! A net reduced for one goal, and the goal there.
 
+use super::Means;
 use crate::explore::Goal;
 use crate::explore::engine::Model;
 use crate::net::{Net, PlaceId, TransitionId};
@@ -27,6 +28,11 @@ impl<'n> Target<'n> {
     /// The net itself.
     pub(super) fn unreduced(net: &'n Net) -> Self {
         Self { model: Model::from(net), net, reduced: None }
+    }
+
+    /// What a search here rests on.
+    pub(super) fn means(&self) -> Means {
+        if self.reduced.is_some() { Means::Reduction } else { Means::StubbornSets }
     }
 
     /// The goal as the reduced net has it. Transitions that it lacks are enabled when the places of their presets say so.

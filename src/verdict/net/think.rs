@@ -4,7 +4,7 @@
 use super::equation::is_impossible;
 use super::hunt::Hunt;
 use super::target::Target;
-use super::{Reply, Watch};
+use super::{Means, Reply, Watch};
 use crate::explore::engine::{Model, Options, explore_towards};
 use crate::explore::{Budget, Goal, Progress, Stop, Walk, without_loops};
 use crate::net::{Net, TransitionId};
@@ -38,7 +38,7 @@ struct Case<'n, 'h> {
     at: usize,
     aim: Goal,
     target: Option<Target<'n>>,
-    reply: Option<Reply>,
+    reply: Option<(Reply, Means)>,
 }
 
 impl<'n, 'h> Thinker<'n, 'h> {
@@ -62,7 +62,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
         states: u64,
         options: &Options,
         watch: Watch<'_>,
-    ) -> (Vec<(usize, Reply)>, Option<String>) {
+    ) -> (Vec<(usize, Reply, Means)>, Option<String>) {
         self.cases.retain(|case| open.binary_search(&case.at).is_ok());
         for case in &mut self.cases {
             // The search may have raised it.
@@ -73,7 +73,8 @@ impl<'n, 'h> Thinker<'n, 'h> {
         let reason = self.work(states, options, watch).err();
         let (done, open): (Vec<_>, Vec<_>) = self.cases.drain(..).partition(|case| case.reply.is_some());
         self.cases = open;
-        (done.into_iter().filter_map(|case| Some((case.at, case.reply?))).collect(), reason)
+        let done = done.into_iter().filter_map(|Case { at, reply, .. }| reply.map(|(reply, by)| (at, reply, by)));
+        (done.collect(), reason)
     }
 
     fn work(&mut self, states: u64, options: &Options, watch: Watch<'_>) -> Result<(), String> {
@@ -82,7 +83,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
             let problem = Problem::new(self.net);
             for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
                 if is_impossible(&problem, self.net, &case.aim, STEPS) {
-                    case.reply = case.hunt.absent();
+                    case.reply = case.hunt.absent().map(|reply| (reply, Means::StateEquation));
                 }
                 look(watch)?;
             }
@@ -122,7 +123,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
                 looked += 1 + size(&case.aim);
                 open += 1;
                 if case.aim.holds(&walk) {
-                    case.found(self.net, &without_loops(&self.model, walk.firings()));
+                    case.found(self.net, &without_loops(&self.model, walk.firings()), Means::Walk);
                 }
             }
             if open == 0 || towards.is_some_and(|position| self.cases[position].reply.is_some()) {
@@ -140,9 +141,9 @@ impl<'n, 'h> Thinker<'n, 'h> {
 
 impl<'n> Case<'n, '_> {
     /// The net reaches the goal by these firings. A goal that can be raised is raised.
-    fn found(&mut self, net: &'n Net, firings: &[u32]) {
+    fn found(&mut self, net: &'n Net, firings: &[u32], by: Means) {
         let run = firings.iter().map(|&transition| TransitionId::at(transition as usize)).collect();
-        self.reply = self.hunt.reached(net, run);
+        self.reply = self.hunt.reached(net, run, by).map(|reply| (reply, by));
         if let (None, Some(aim)) = (&self.reply, self.hunt.aim()) {
             self.aim = aim;
         }
@@ -152,7 +153,7 @@ impl<'n> Case<'n, '_> {
     fn search(&mut self, net: &'n Net, model: &Model, options: &Options, watch: Watch<'_>) -> Result<(), String> {
         while self.reply.is_none() {
             let target = self.target.get_or_insert_with(|| Target::of(net, &self.aim));
-            let goal = target.goal(&self.aim);
+            let (goal, by) = (target.goal(&self.aim), target.means());
             let mut reason = None;
             let mut watch = |progress: &Progress| {
                 reason = watch(progress);
@@ -162,11 +163,11 @@ impl<'n> Case<'n, '_> {
             if let Some(found) = &exploration.found {
                 let firings = exploration.firings(found).ok_or("the way to a marking is lost, which is an error")?;
                 match target.lifted(&firings) {
-                    Some(firings) => self.found(net, &without_loops(model, &firings)),
+                    Some(firings) => self.found(net, &without_loops(model, &firings), by),
                     None => self.target = Some(Target::unreduced(net)),
                 }
             } else if exploration.stop == Stop::Complete {
-                self.reply = self.hunt.absent();
+                self.reply = self.hunt.absent().map(|reply| (reply, by));
             } else {
                 return reason.map_or(Ok(()), Err);
             }
