@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use petril::explore::Budget;
 use petril::explore::engine::{Model, Options};
-use petril::logic::{Bound, Comparison, Term, Valuation};
+use petril::logic::{Bound, Comparison, Quantifier, Term, Valuation};
 use petril::net::{Builder, Net, PlaceId, Tokens, TransitionId};
 use petril::semantics::VarId;
 use petril::verdict::{Examination, Question, Reply, Run, judge};
@@ -30,7 +30,7 @@ fn net(initial: &[u64], transitions: &[(Side, Side)]) -> Net {
         initial.iter().zip(["a", "b", "c", "d"]).map(|(&n, name)| builder.place_with(name, n)).collect();
     for (number, (pre, post)) in transitions.iter().enumerate() {
         let arcs = |side: &Side| side.iter().map(|&(place, weight)| (places[place], weight)).collect::<Vec<_>>();
-        builder.weighted(&format!("t{number}"), &arcs(pre), &arcs(post), &[]);
+        builder.weighted(format!("t{number}"), &arcs(pre), &arcs(post), &[]);
     }
     builder.build()
 }
@@ -188,5 +188,36 @@ proptest! {
         for (part, whole) in judged(&net, &formulas, limit, threads).iter().zip(&expected) {
             prop_assert!(part.is_none() || part == whole, "{part:?} of {limit} states, {whole:?} of all");
         }
+    }
+}
+
+#[test]
+fn what_is_decided_near_by_is_answered_without_all_states() {
+    // A counter without end.
+    let net = net(&[0, 0, 0, 0], &[(vec![], vec![(0, 1)])]);
+    let counted = |comparison, n| Bound::Compare(comparison, Term::Tokens(PlaceId::at(0)), Term::Number(n));
+    let truth = |value| Box::new(Bound::Truth(value));
+    let some =
+        |f: Bound| Bound::Until { quantifier: Quantifier::Some, weak: false, hold: truth(true), release: Box::new(f) };
+    let always =
+        |f: Bound| Bound::Until { quantifier: Quantifier::All, weak: true, hold: Box::new(f), release: truth(false) };
+    let next = |f: Bound| Bound::Next(Quantifier::All, Box::new(f));
+    let formulas = [
+        next(next(counted(Comparison::Equal, 2))),
+        some(counted(Comparison::Equal, 100)),
+        // The nearest states do not tell whether it will be 0 again.
+        always(some(counted(Comparison::Equal, 0))),
+        // Its first part decides.
+        Bound::Or(
+            Box::new(some(next(counted(Comparison::Equal, 7)))),
+            Box::new(always(some(counted(Comparison::Equal, 0)))),
+        ),
+        always(next(counted(Comparison::AtMost, 50))),
+    ];
+    for threads in [1, 2] {
+        let answers = judged(&net, &formulas, 1000, threads);
+        assert_eq!(answers, [Some(true), Some(true), None, Some(true), Some(false)]);
+        let live = Examination::ALL.map(Examination::question);
+        assert_eq!(answered(&net, &live, 1000, threads), [None, Some(false), Some(true), Some(true), None]);
     }
 }

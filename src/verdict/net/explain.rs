@@ -154,7 +154,7 @@ impl Teller<'_> {
         let mut branches = Vec::with_capacity(tale.branches.len());
         for (at, node, why) in &tale.branches {
             let run = why.as_ref().map(|why| self.replayed(why, &markings[*at])).transpose()?;
-            branches.push(Branch { at: *at, formula: self.dag.formula(*node), run });
+            branches.push(Branch { at: *at, formula: self.dag.formula(*node).simplified(), run });
         }
         Ok(Run { firings, loop_start: tale.loop_start, branches, is_shortest: false })
     }
