@@ -151,16 +151,19 @@ pub fn refined_net() -> impl Strategy<Value = Net> {
     let moves =
         proptest::collection::vec((0..4_usize, 0..4_usize, proptest::option::of((0..4_usize, 0..4_usize))), 0..=2);
     let change = (prop_oneof![5 => 0..8_usize, 1 => 8..CHANGES.len()], any::<[u8; 3]>());
-    (1..=4_usize, moves, proptest::collection::vec(change, 0..=8)).prop_map(|(places, moves, changes)| {
-        let mut sketch = Sketch { tokens: vec![0; places], transitions: Vec::new() };
-        sketch.tokens[0] = 1;
-        (0..places).for_each(|p| sketch.transitions.push((vec![(p, 1)], vec![((p + 1) % places, 1)])));
-        for (from, to, more) in moves {
-            let pairs = [Some((from, to)), more].into_iter().flatten();
-            let (pre, post) = pairs.map(|(from, to)| ((from % places, 1), (to % places, 1))).unzip();
-            sketch.transitions.push((pre, post));
-        }
-        changes.into_iter().for_each(|(change, at)| sketch.change(CHANGES[change], at.map(usize::from)));
-        sketch.net()
-    })
+    let tokens = [1..=1_u64, 0..=1, 0..=1, 0..=2];
+    (1..=4_usize, tokens, moves, proptest::collection::vec(change, 0..=8)).prop_map(
+        |(places, tokens, moves, changes)| {
+            let mut sketch = Sketch { tokens: vec![0; places], transitions: Vec::new() };
+            sketch.tokens.iter_mut().zip(tokens).for_each(|(on, tokens)| *on = tokens);
+            (0..places).for_each(|p| sketch.transitions.push((vec![(p, 1)], vec![((p + 1) % places, 1)])));
+            for (from, to, more) in moves {
+                let pairs = [Some((from, to)), more].into_iter().flatten();
+                let (pre, post) = pairs.map(|(from, to)| ((from % places, 1), (to % places, 1))).unzip();
+                sketch.transitions.push((pre, post));
+            }
+            changes.into_iter().for_each(|(change, at)| sketch.change(CHANGES[change], at.map(usize::from)));
+            sketch.net()
+        },
+    )
 }
