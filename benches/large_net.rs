@@ -31,7 +31,7 @@ fn print(count: usize, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "      <transition id=\"transition_{i}\">\n        {name}\n      </transition>")?;
     }
     for i in 0..count {
-        let (next, far) = ((i + 1) % count, (i * 7 + count / 2) % count);
+        let (next, far) = ((i + 1) % count, (i + count / 2) % count);
         let [here, next, far] = [i, next, far].map(|place| format!("place_{place}"));
         let ends = [(0, &here, true), (1, &far, true), (2, &far, false), (3, &next, false)];
         for (number, place, takes) in ends {

@@ -117,7 +117,7 @@ fn from_andl(text: &str) -> Plain {
 
 /// A reader of INA's format that knows what Petril writes, with the names in full.
 fn from_ina(text: &str) -> Plain {
-    let parts: Vec<&str> = text.split("@\n").collect();
+    let parts: Vec<&str> = text.splitn(4, "@\n").collect();
     let [structure, places, transitions, full] = parts[..] else { panic!("{text}") };
     let names = |part: &str, kind: &str| -> Vec<String> {
         let short: Vec<&str> = part.lines().skip(1).map(|line| &line[10..26]).collect();

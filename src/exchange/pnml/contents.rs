@@ -74,7 +74,9 @@ impl<'s> Contents<'s> {
             };
             let item = |kind, is_reference| Pending { element: &element, kind, is_reference, page };
             match element.name {
-                _ if element.namespace != net.namespace => foreign(stream, &element, parent(&open), diagnostics)?,
+                _ if element.namespace != net.namespace => {
+                    foreign(stream, &element, (parent(&open), net.namespace), diagnostics)?
+                }
                 "page" => {
                     contents.other(&element, diagnostics);
                     open.push(contents.pages);
@@ -91,7 +93,7 @@ impl<'s> Contents<'s> {
                     contents.units = contents.units.or(section);
                 }
                 "name" | "graphics" | "toolspecific" => stream.skip()?,
-                _ => foreign(stream, &element, parent(&open), diagnostics)?,
+                _ => foreign(stream, &element, (parent(&open), net.namespace), diagnostics)?,
             }
         }
         Ok(contents)
@@ -122,14 +124,16 @@ impl<'s> Contents<'s> {
                 Event::Text(_) => continue,
             };
             match label.name {
-                _ if label.namespace != element.namespace => foreign(stream, &label, element.name, diagnostics)?,
+                _ if label.namespace != element.namespace => {
+                    foreign(stream, &label, (element.name, element.namespace), diagnostics)?
+                }
                 "name" => name = text(stream)?.filter(|name| !name.text.is_empty()),
                 "graphics" | "toolspecific" => stream.skip()?,
                 "initialMarking" if kind == Kind::Place && !is_reference => {
                     let tokens = number(stream, &label, diagnostics)?;
                     once(&mut marking, tokens.unwrap_or_default(), &label, diagnostics);
                 }
-                _ => foreign(stream, &label, element.name, diagnostics)?,
+                _ => foreign(stream, &label, (element.name, element.namespace), diagnostics)?,
             }
         }
         let (tokens, span) = marking.map_or_else(Default::default, |(_, tokens)| tokens);
@@ -165,13 +169,15 @@ impl<'s> Contents<'s> {
                 Event::Text(_) => continue,
             };
             match label.name {
-                _ if label.namespace != element.namespace => foreign(stream, &label, element.name, diagnostics)?,
+                _ if label.namespace != element.namespace => {
+                    foreign(stream, &label, (element.name, element.namespace), diagnostics)?
+                }
                 "name" | "graphics" | "toolspecific" => stream.skip()?,
                 "inscription" => {
                     let one = inscription(stream, &label, draft, diagnostics)?;
                     once(&mut weight, one, &label, diagnostics);
                 }
-                _ => foreign(stream, &label, element.name, diagnostics)?,
+                _ => foreign(stream, &label, (element.name, element.namespace), diagnostics)?,
             }
         }
         if let [Some(source), Some(target)] = ends {
@@ -228,10 +234,11 @@ fn inscription<'s>(
 fn foreign<'s>(
     stream: &mut Stream<'s>,
     element: &Element<'s>,
-    parent: &str,
+    (parent, namespace): (&str, &str),
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(), Diagnostic> {
-    let message = format!("`<{}>` in `<{parent}>` is not part of place/transition nets", element.name);
+    let of = if element.namespace == namespace { "" } else { " of another namespace" };
+    let message = format!("`<{}>`{of} in `<{parent}>` is not part of place/transition nets", element.name);
     diagnostics.push(
         Diagnostic::new(Code::NetNotOrdinary, element.span, message).help(
             "leave it out if the net means the same without it; tools keep data of their own in `<toolspecific>`",

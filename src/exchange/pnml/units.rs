@@ -98,11 +98,11 @@ impl<'s> Section<'s> {
             Some((size, counts[position]))
         }) {
             if size.text.parse() != Ok(count) {
-                warn(&mut draft.warnings, size.span, format!("this net has {count} {of}, not {}", size.text));
+                warn(&mut draft.warnings, size.span, format!("the number of {of} is {count}, not {}", size.text));
             }
         }
         if let Some(count) = self.count.as_ref().filter(|count| count.text.parse() != Ok(self.units.len())) {
-            let message = format!("this section has {} units, not {}", self.units.len(), count.text);
+            let message = format!("the number of units is {}, not {}", self.units.len(), count.text);
             warn(&mut draft.warnings, count.span, message);
         }
         let mut misfits = Vec::new();
