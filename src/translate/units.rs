@@ -44,8 +44,8 @@ fn exclusive(component: &Component) -> Vec<Vec<usize>> {
         }
     }
     let mut groups: Vec<(FixedBitSet, Vec<usize>)> = Vec::new();
-    for place in 0..count {
-        match groups.iter_mut().find(|(members, _)| members.is_disjoint(&together[place])) {
+    for (place, marked_too) in together.iter().enumerate() {
+        match groups.iter_mut().find(|(members, _)| members.is_disjoint(marked_too)) {
             Some((members, group)) => {
                 members.insert(place);
                 group.push(place);

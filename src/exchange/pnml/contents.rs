@@ -75,7 +75,7 @@ impl<'s> Contents<'s> {
             let item = |kind, is_reference| Pending { element: &element, kind, is_reference, page };
             match element.name {
                 _ if element.namespace != net.namespace => {
-                    foreign(stream, &element, (parent(&open), net.namespace), diagnostics)?
+                    foreign(stream, &element, (parent(&open), net.namespace), diagnostics)?;
                 }
                 "page" => {
                     contents.other(&element, diagnostics);
@@ -125,7 +125,7 @@ impl<'s> Contents<'s> {
             };
             match label.name {
                 _ if label.namespace != element.namespace => {
-                    foreign(stream, &label, (element.name, element.namespace), diagnostics)?
+                    foreign(stream, &label, (element.name, element.namespace), diagnostics)?;
                 }
                 "name" => name = text(stream)?.filter(|name| !name.text.is_empty()),
                 "graphics" | "toolspecific" => stream.skip()?,
@@ -170,7 +170,7 @@ impl<'s> Contents<'s> {
             };
             match label.name {
                 _ if label.namespace != element.namespace => {
-                    foreign(stream, &label, (element.name, element.namespace), diagnostics)?
+                    foreign(stream, &label, (element.name, element.namespace), diagnostics)?;
                 }
                 "name" | "graphics" | "toolspecific" => stream.skip()?,
                 "inscription" => {
