@@ -1,7 +1,7 @@
 //! Watching a search: figures on the terminal while it runs, and the limit of time.
 
 use std::cell::Cell;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanBytes, HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -22,8 +22,11 @@ pub struct Watcher {
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
 
-/// Whether whoever started the program wants it to end.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// When whoever started the program wanted it to end.
+static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
+
+/// A signal so soon after another is the same one, sent to the program and to its group.
+const TWICE: Duration = Duration::from_millis(500);
 
 impl Watcher {
     /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
@@ -39,7 +42,7 @@ impl Watcher {
         };
         // If nobody can be told, Ctrl-C ends the program as usual.
         let _ = ctrlc::set_handler(|| {
-            if INTERRUPTED.swap(true, Ordering::Relaxed) {
+            if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
                 std::process::exit(130);
             }
         });
@@ -71,7 +74,7 @@ impl Watcher {
                 )
             });
         }
-        if INTERRUPTED.load(Ordering::Relaxed) {
+        if INTERRUPTED.get().is_some() {
             return Some("interrupted".to_owned());
         }
         let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
