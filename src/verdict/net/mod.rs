@@ -165,7 +165,7 @@ fn open(splits: &[Split<'_>], replies: &[Option<Reply>]) -> Vec<usize> {
     open
 }
 
-/// What an exploration answers; and why that could have been more, if it is not that states are missing.
+/// What an exploration answers; and why it was stopped while it did, if it was.
 fn answers(
     net: &Net,
     hunts: &[&Hunt<'_>],
@@ -181,9 +181,11 @@ fn answers(
     }
     let bytes = Paths::bytes(exploration);
     if bytes > budget.bytes {
-        let reason =
-            format!("the graph needs {} MiB, {} more than the limit", bytes >> 20, (bytes - budget.bytes) >> 20);
-        return (replies, Some(reason));
+        // Others may still be answered, by more states without their graph.
+        let more = (bytes - budget.bytes) >> 20;
+        let reason = format!("the graph needs {} MiB, {more} more than the limit", bytes >> 20);
+        open.into_iter().for_each(|at| replies[at] = Some(Reply::Unknown(reason.clone())));
+        return (replies, None);
     }
     let progress = Progress {
         states: exploration.figures.states,
