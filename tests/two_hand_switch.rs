@@ -6,7 +6,7 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, behaviour, explore, unsafe_firing};
+use petril::explore::{Budget, Graph, Markings, ScanSpace, behaviour, explore, unsafe_firing};
 use petril::semantics::Role;
 use petril::translate::{Part, System};
 use support::reports::{answer, counterexample, moves, report, values, verdicts};
@@ -100,11 +100,10 @@ fn the_net_has_its_size() {
 #[test]
 fn the_net_behaves_as_the_paper_says() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
-    let space = MarkingSpace::new(&system.net);
-    let graph = explore(&space, Budget::default(), &mut |_| None);
-    assert_eq!(graph.len(), 797);
-    assert_eq!(unsafe_firing(&space, &graph), None);
-    let behaviour = behaviour(&space, &graph);
+    let markings = Markings::explored(&system.net, Budget::default(), &mut |_| None);
+    assert_eq!(markings.graph().len(), 797);
+    assert_eq!(unsafe_firing(&markings), None);
+    let behaviour = behaviour(&markings);
     assert_eq!(behaviour.deadlocks, 0);
     assert!(behaviour.live_without_dead);
     // Each instruction has a transition for every combination of values, and not every combination comes about.

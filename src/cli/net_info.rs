@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use petril::explore::{MarkingSpace, Stop, behaviour, explore, unsafe_firing};
+use petril::explore::{Markings, Stop, behaviour, unsafe_firing};
 use petril::witness::firing_trace;
 use serde_json::json;
 
@@ -19,8 +19,8 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let (located, _) = input::safe_net(&arguments.model, console)?;
     let net = located.net;
     let watcher = Watcher::new(&arguments.limits)?;
-    let space = MarkingSpace::new(&net);
-    let graph = explore(&space, arguments.limits.budget(), &mut |progress| watcher.watch(progress));
+    let markings = Markings::explored(&net, arguments.limits.budget(), &mut |progress| watcher.watch(progress));
+    let graph = markings.graph();
     watcher.finish();
     let size = format!(
         "net          {}\nplaces       {}\ntransitions  {}\narcs         {}{}\n",
@@ -42,9 +42,9 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         "complete": graph.is_complete(),
         "stop": graph.stop().to_string(),
     });
-    let (text, code) = if let Some((state, transition, place)) = unsafe_firing(&space, &graph) {
+    let (text, code) = if let Some((state, transition, place)) = unsafe_firing(&markings) {
         let states: Vec<&[u64]> = graph.path_to(state).iter().map(|&id| graph.state(id)).collect();
-        let mut run = firing_trace(&space, &states, None).firings;
+        let mut run = firing_trace(&markings, &states, None).firings;
         run.push(transition);
         let run: Vec<&str> = run.iter().map(|&id| net.transition(id).name).collect();
         let place = net.place(place).name;
@@ -53,7 +53,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         let text = format!("safe         no: `{place}` gets a second token by {}\n", run.join(", "));
         (text + "markings     not counted, since the net is not safe\n", SUCCESS)
     } else if *graph.stop() == Stop::Complete {
-        let behaviour = behaviour(&space, &graph);
+        let behaviour = behaviour(&markings);
         let dead: Vec<&str> = behaviour.dead.iter().map(|&id| net.transition(id).name).collect();
         document["safe"] = json!(true);
         document["markings"] = json!(graph.len());

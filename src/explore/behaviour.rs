@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::components::components;
 use super::graph::Graph;
-use super::marking_space::MarkingSpace;
+use super::markings::Markings;
 use super::space::{Failure, Step};
 use crate::net::{PlaceId, TransitionId};
 
@@ -24,10 +24,11 @@ pub struct Behaviour {
 
 /// The behaviour a complete graph shows.
 #[must_use]
-pub fn behaviour(space: &MarkingSpace<'_>, graph: &Graph) -> Behaviour {
-    let count = space.net().transitions().len();
+pub fn behaviour(markings: &Markings<'_>) -> Behaviour {
+    let graph = markings.graph();
+    let count = markings.net().transitions().len();
     let add = |mut fired: FixedBitSet, state: u32| {
-        space.firings(graph.state(state), &mut |transition, _| fired.insert(transition.index()));
+        markings.firings(graph.state(state), &mut |transition, _| fired.insert(transition.index()));
         fired
     };
     let none = || FixedBitSet::with_capacity(count);
@@ -73,10 +74,11 @@ fn fired_in_bottom_components(
 
 /// A firing that puts a second token on a place: the state it starts from, the transition, the place.
 #[must_use]
-pub fn unsafe_firing(space: &MarkingSpace<'_>, graph: &Graph) -> Option<(u32, TransitionId, PlaceId)> {
+pub fn unsafe_firing(markings: &Markings<'_>) -> Option<(u32, TransitionId, PlaceId)> {
+    let graph = markings.graph();
     let state = graph.failures().iter().find_map(|&(state, _)| state)?;
     let mut found = None;
-    space.firings(graph.state(state), &mut |transition, step| {
+    markings.firings(graph.state(state), &mut |transition, step| {
         if let (None, Step::Fails(Failure::NotSafe(place))) = (found, step) {
             found = Some((state, transition, place));
         }

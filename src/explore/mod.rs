@@ -1,7 +1,8 @@
 //! Reachable states: a seam ([`StateSpace`]), a packed store, a breadth-first search, and the graph it leaves.
 //!
-//! Two spaces are made from a system: [`MarkingSpace`], where every firing is a step (the transition view), and
-//! [`ScanSpace`], where a step is one scan (the scan view). The search knows nothing of either.
+//! Two graphs are made from a system: that of its [`Markings`], where every firing is a step (the transition view), explored by
+//! the [`engine`]; and that of its [`ScanSpace`], where a step is one scan (the scan view), explored by [`explore`], which knows
+//! nothing of programs.
 
 mod behaviour;
 mod budget;
@@ -11,7 +12,7 @@ pub mod engine;
 mod free_inputs;
 mod graph;
 mod layout;
-mod marking_space;
+mod markings;
 mod scan_space;
 mod search;
 mod space;
@@ -24,7 +25,7 @@ pub use components::{Components, components};
 pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;
 pub use graph::Graph;
-pub use marking_space::MarkingSpace;
+pub use markings::Markings;
 pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
 pub use space::{Failure, StateSpace, Step};

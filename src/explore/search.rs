@@ -21,17 +21,21 @@ const ALONE: usize = 64;
 pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Graph {
     // Numbers of states and rows have 32 bits; half of that leaves room for a batch.
     let budget = Budget { states: budget.states.min(u64::from(u32::MAX) >> 1), ..budget };
-    let mut search = Search { space, budget, graph: Graph::empty(space.words()), kernels: None };
+    let mut search = Search { space, budget, graph: Graph::empty(space.words()), states: Store::new(space.words()), kernels: None };
     search.kernels = space.relevant().map(|_| Store::new(space.words()));
     search.graph.stop = search.run(watch);
     watch(&search.progress());
-    search.graph
+    let Search { mut graph, states, .. } = search;
+    graph.len = states.len();
+    graph.arena = states.into_arena();
+    graph
 }
 
 struct Search<'a> {
     space: &'a dyn StateSpace,
     budget: Budget,
     graph: Graph,
+    states: Store,
     /// The relevant parts of the states expanded so far, if states can share rows: a kernel's number is that of its row.
     kernels: Option<Store>,
 }
@@ -45,7 +49,7 @@ impl Search<'_> {
             return Stop::States(self.budget.states);
         }
         self.enter_initial();
-        let mut level = 0..self.graph.len() as u32;
+        let mut level = 0..self.states.len() as u32;
         while !level.is_empty() {
             self.graph.levels.push(level.start);
             while self.graph.expanded() < level.end as usize {
@@ -57,7 +61,7 @@ impl Search<'_> {
                 }
                 let rest = self.graph.expanded() as u32..level.end;
                 let Some(batch) = self.batch(rest) else { return Stop::States(self.budget.states) };
-                let (space, store) = (self.space, &self.graph.store);
+                let (space, store) = (self.space, &self.states);
                 let expand = |&id: &u32| Expansion::of(|add| space.successors(store.get(id), add));
                 // Waking other threads costs more than a few states.
                 let expansions: Vec<Expansion> = if batch.len() < ALONE {
@@ -69,7 +73,7 @@ impl Search<'_> {
                     self.enter(*id, expansion);
                 }
             }
-            level = level.end..self.graph.len() as u32;
+            level = level.end..self.states.len() as u32;
         }
         Stop::Complete
     }
@@ -79,9 +83,8 @@ impl Search<'_> {
         let roots = Expansion::of(|add| space.initial(add));
         self.graph.failures.extend(roots.failures.iter().map(|&failure| (None, failure)));
         for state in roots.words.chunks_exact(space.words()) {
-            let (id, new) = self.graph.store.insert(state);
+            let (id, new) = self.states.insert(state);
             if new {
-                self.graph.parents.push(id);
                 self.graph.initial.push(id);
             }
         }
@@ -94,7 +97,7 @@ impl Search<'_> {
         let mut batch = Vec::new();
         let mut kernel = Vec::new();
         for id in rest {
-            let state = self.graph.store.get(id);
+            let state = self.states.get(id);
             let mask = self.space.relevant();
             kernel.clear();
             kernel.extend(state.iter().zip(mask.into_iter().flatten()).map(|(word, mask)| word & mask));
@@ -114,12 +117,9 @@ impl Search<'_> {
     }
 
     fn enter(&mut self, id: u32, expansion: &Expansion) {
-        let graph = &mut self.graph;
+        let Self { graph, states, .. } = self;
         for state in expansion.words.chunks_exact(self.space.words()) {
-            let (target, new) = graph.store.insert(state);
-            if new {
-                graph.parents.push(id);
-            }
+            let (target, _) = states.insert(state);
             graph.targets.push(target);
         }
         graph.starts.push(graph.targets.len() as u64);
@@ -127,7 +127,7 @@ impl Search<'_> {
     }
 
     fn bytes(&self) -> u64 {
-        self.graph.bytes() + self.kernels.as_ref().map_or(0, Store::bytes)
+        self.graph.bytes() + self.states.bytes() + self.kernels.as_ref().map_or(0, Store::bytes)
     }
 
     fn exhausted(&self) -> Option<Stop> {
@@ -135,13 +135,13 @@ impl Search<'_> {
         if self.bytes() > self.budget.bytes {
             Some(Stop::Bytes(self.budget.bytes))
         } else {
-            (self.graph.len() as u64 > states).then_some(Stop::States(states))
+            (self.states.len() as u64 > states).then_some(Stop::States(states))
         }
     }
 
     fn progress(&self) -> Progress {
         Progress {
-            states: self.graph.len() as u64,
+            states: self.states.len() as u64,
             expanded: self.graph.expanded() as u64,
             depth: self.graph.depth(),
             bytes: self.bytes(),

@@ -19,9 +19,9 @@ impl Store {
         Self { words, len: 0, arena: Vec::new(), index: HashTable::new() }
     }
 
-    /// States of which only the number is known here.
-    pub fn elsewhere(len: usize) -> Self {
-        Self { len, ..Self::new(0) }
+    /// The words of all states, one state after another.
+    pub fn into_arena(self) -> Vec<u64> {
+        self.arena
     }
 
     /// How many states there are.

@@ -65,17 +65,34 @@ impl Exploration {
     /// All steps, with the transitions fired if asked for. Nothing if states were not kept, or not all of them are known.
     #[must_use]
     pub fn steps(&self, with_transitions: bool) -> Option<Steps> {
-        let states = self.figures.states;
-        if self.shards.is_empty() || self.figures.expanded < states || states > u64::from(u32::MAX) {
+        if self.figures.expanded < self.figures.states {
+            return None;
+        }
+        self.rows(with_transitions, usize::MAX)
+    }
+
+    /// The steps of the states expanded, as far as there are at most so many: rows of the first states, whole ones. Nothing
+    /// unless states were kept, on one thread, so that those expanded are the first.
+    pub(in crate::explore) fn steps_within(&self, most: usize) -> Option<Steps> {
+        if self.shards.len() == 1 { self.rows(false, most) } else { None }
+    }
+
+    fn rows(&self, with_transitions: bool, most: usize) -> Option<Steps> {
+        if self.shards.is_empty() || self.figures.states > u64::from(u32::MAX) {
             return None;
         }
         let indices = self.indices();
         let mut steps = Steps { starts: vec![0], targets: Vec::new(), fired: Vec::new() };
-        steps.targets.reserve_exact(self.figures.transitions as usize);
+        steps.targets.reserve_exact(most.min(self.figures.transitions as usize));
         let mut found: Vec<Vec<(u64, usize)>> = vec![Vec::new(); self.shards.len()];
         let mut after = vec![0; self.machine.packing.words()];
         let mut keys = Vec::new();
-        self.for_each_state(|_, view| {
+        self.for_each_state(|state, view| {
+            let enabled: u32 = view.enabled.iter().map(|word| word.count_ones()).sum();
+            let is_next = steps.states() == state as usize && u64::from(state) < self.figures.expanded;
+            if !is_next || enabled as usize > most - steps.targets.len() {
+                return;
+            }
             for transition in view.enabled() {
                 after.copy_from_slice(view.words);
                 self.machine.fire(transition, &mut after);

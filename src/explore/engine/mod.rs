@@ -7,6 +7,7 @@
 
 mod allowed;
 mod candidates;
+mod capacity;
 mod conditions;
 mod cover;
 mod exploration;
@@ -24,11 +25,13 @@ mod rows;
 mod scramble;
 mod search;
 mod shard;
+mod states;
 mod swaps;
 mod tally;
 mod trace;
 mod view;
 
+pub(super) use capacity::explore_safely;
 pub use exploration::{Exploration, Figures};
 pub use graph::Steps;
 pub use model::{Arcs, Model};

@@ -58,18 +58,30 @@ pub fn explore(
         Err(reason) => return Exploration::refused(reason),
     };
     let bounds = Bounds::of(&model.initial, &rules);
+    explore_within(model, &rules, &bounds, options, watch, wanted)
+}
+
+/// As [`explore`], where the rules and bounds of the model are known.
+pub(super) fn explore_within(
+    model: &Model,
+    rules: &[Rule],
+    bounds: &Bounds,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
+) -> Exploration {
     let mut limits: Vec<u64> = model.initial.iter().map(|&tokens| tokens.max(1)).collect();
     for round in 0.. {
-        let machine = Machine::new(&model.initial, &rules, &bounds, &limits);
+        let machine = Machine::new(&model.initial, rules, bounds, &limits);
         let shards = options.threads.max(1);
         let task = Task { machine: &machine, wanted, shards, keep: options.keep };
         let mut search = Search::new(task, options.budget);
         let end = search.run(watch);
         let End::Overflow(words) = end else {
             let shards = std::mem::take(&mut search.shards);
-            return finish(model, &rules, machine, shards, end, options.keep);
+            return finish(model, rules, machine, shards, end, options.keep);
         };
-        if !raise(&mut limits, &machine, &rules, &words, round) {
+        if !raise(&mut limits, &machine, rules, &words, round) {
             break;
         }
     }
