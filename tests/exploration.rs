@@ -5,9 +5,7 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use petril::explore::{
-    Budget, Failure, Graph, Markings, ScanSpace, Stop, behaviour, explore, unsafe_firing,
-};
+use petril::explore::{Budget, Failure, Graph, Markings, ScanSpace, Stop, behaviour, explore, unsafe_firing};
 use petril::net::{Net, TransitionId};
 use proptest::prelude::*;
 use support::random_net::{any_net, safe_net};

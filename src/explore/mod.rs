@@ -6,6 +6,7 @@
 
 mod behaviour;
 mod budget;
+mod circuit;
 mod components;
 mod coverage;
 pub mod engine;
@@ -13,10 +14,12 @@ mod free_inputs;
 mod graph;
 mod layout;
 mod markings;
+mod scan_lanes;
 mod scan_space;
 mod search;
 mod space;
 mod store;
+mod table;
 mod tarjan;
 
 pub use behaviour::{Behaviour, behaviour, unsafe_firing};
@@ -28,4 +31,4 @@ pub use graph::Graph;
 pub use markings::Markings;
 pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
-pub use space::{Failure, StateSpace, Step};
+pub use space::{Failure, StateSpace, Step, Successors};

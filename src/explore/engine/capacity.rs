@@ -1,7 +1,7 @@
 //! Exploring with at most one token on each place.
 //!
-//! A place that invariants do not prove safe gets a complement, which is marked while the place is not. A transition that puts
-//! a token on the place and takes none from it takes the complement, so it never puts a second one. Where that holds it back,
+//! A place that invariants do not prove safe gets a complement, which is marked while the place is not. A transition that adds
+//! a token to the place takes that of the complement, so it never adds a second one. Where that holds it back,
 //! the net is not safe, and whoever asks finds the transition enabled in the net but not here.
 
 use super::cover::Bounds;
@@ -44,11 +44,9 @@ fn with_complements(mut model: Model, rules: &[Rule], places: &[usize]) -> Model
     model
 }
 
-/// The arcs of a transition to the complement of a place it touches.
+/// The arcs of a transition to the complement of a place it touches: what the place gains, the complement loses.
 fn guard(arcs: &mut Arcs, touch: &Touch, complement: u32) {
-    if touch.pre == 0 {
-        arcs.pre.push((complement, 1));
-    } else if touch.post == 0 {
-        arcs.post.push((complement, 1));
-    }
+    let gain = touch.change();
+    let list = if gain > 0 { &mut arcs.pre } else { &mut arcs.post };
+    list.extend((gain != 0).then_some((complement, gain.unsigned_abs())));
 }
