@@ -1,4 +1,5 @@
-//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest` (or `sizes`).
+//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest` (or `sizes`);
+//! `cargo bench --bench figures -- program 2 7` prints one of the programs.
 //!
 //! Times are the shortest of several runs; runs that are compared take turns.
 
@@ -23,6 +24,7 @@ fn main() {
     // Without `--bench` this is a run of the tests, which has nothing to measure.
     match (asked("--bench"), asked("largest")) {
         (false, _) => {}
+        (true, _) if asked("program") => print_program(),
         (true, true) => scan_view(&[(3, 7)], 1),
         (true, false) if asked("sizes") => program_sizes(),
         (true, false) => {
@@ -31,6 +33,16 @@ fn main() {
             both_views();
             threads();
         }
+    }
+}
+
+/// Prints the program of `program n m`, or of `program n`, for other tools.
+fn print_program() {
+    let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
+    match *sizes.as_slice() {
+        [inputs, scans] => print!("{}", filters(inputs, scans)),
+        [instructions] => print!("{}", mixed(instructions)),
+        _ => println!("after `program`, there are one or two sizes"),
     }
 }
 

@@ -85,14 +85,15 @@ impl Search<'_> {
 
     /// Expands the states before `end`.
     fn level(&mut self, end: u32, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Option<Stop> {
-        let (mut batch, mut found) = (Batch::default(), Vec::new());
+        let (mut batch, mut found): (Batch, Vec<Successors>) = Default::default();
         while self.graph.expanded() < end as usize {
             let mut stop = self.exhausted();
             if stop.is_none() {
                 stop = watch(&self.progress()).map(Stop::Watcher);
             }
             let rest = self.graph.expanded() as u32..end;
-            let next = if stop.is_none() { self.batch(rest) } else { None };
+            let waiting: usize = found.iter().map(|found| found.words.len() / self.space.words()).sum();
+            let next = if stop.is_none() { self.batch(rest, waiting as u64) } else { None };
             let Some(next) = next else {
                 self.enter(&batch.ids, &found);
                 return stop.or(Some(Stop::States(self.budget.states)));
@@ -111,10 +112,11 @@ impl Search<'_> {
     }
 
     /// Gives the next states of `rest` their rows, and returns those of them whose rows are new: as many as have [`BATCH`]
-    /// successors together, but one at least. `None` if that one has more than the budget allows.
-    fn batch(&mut self, rest: Range<u32>) -> Option<Batch> {
+    /// successors together, but one at least. `None` if that one has more than the budget allows. `waiting` successors were not
+    /// entered yet.
+    fn batch(&mut self, rest: Range<u32>, waiting: u64) -> Option<Batch> {
         let Self { space, budget, graph, states, rows, firsts } = self;
-        let most = budget.states.saturating_sub(states.len() as u64).clamp(LEAST, BATCH);
+        let most = budget.states.saturating_sub(states.len() as u64 + waiting).clamp(LEAST, BATCH);
         let mut total = 0;
         let mut batch = Batch::default();
         let mask = space.relevant();
