@@ -78,7 +78,7 @@ impl<'n> Markings<'n> {
     /// Whether no transition is enabled in a state.
     #[must_use]
     pub fn is_deadlock(&self, state: &[u64]) -> bool {
-        self.exploration.show(state, |view| view.is_deadlock()) && self.failing(state).next().is_none()
+        self.exploration.show(state, |view| view.enabled().next().is_none()) && self.failing(state).next().is_none()
     }
 
     /// Calls `visit` for each enabled transition with the step it makes.

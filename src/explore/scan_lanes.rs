@@ -49,8 +49,7 @@ impl<'s> Lanes<'s> {
             self.space.confirm(&begin, end);
         }
         let (mut failures, mut ends) = (failures.into_iter().peekable(), self.ends.drain(..).peekable());
-        let mut lane = 0;
-        for state in self.states.chunks_exact(self.words) {
+        for (lane, state) in self.states.chunks_exact(self.words).enumerate() {
             while ends.next_if_eq(&lane).is_some() {
                 into.finish();
             }
@@ -58,7 +57,6 @@ impl<'s> Lanes<'s> {
                 Some((_, failure)) => Step::Fails(failure),
                 None => Step::To(state),
             });
-            lane += 1;
         }
         ends.for_each(|_| into.finish());
         self.states.clear();

@@ -97,12 +97,9 @@ impl Circuit {
                 used[b.node()] = true;
             }
         }
-        let mut count = 0;
         let mut new = vec![0; used.len()];
-        for (node, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-            new[node] = count;
-            count += 1;
-        }
+        let kept = used.iter().enumerate().filter(|(_, used)| **used);
+        kept.enumerate().for_each(|(number, (node, _))| new[node] = number);
         let moved = |wire: Wire| wire.at(new[wire.node()]);
         let mut is_used = used.iter().skip(1);
         self.inputs.retain(|_| is_used.next() == Some(&true));
