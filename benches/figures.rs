@@ -1,4 +1,5 @@
-//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest` (or `sizes`).
+//! The tables of docs/performance.md: `cargo bench --bench figures`, and `cargo bench --bench figures -- largest` (or `sizes`);
+//! `cargo bench --bench figures -- program 2 7` prints one of the programs.
 //!
 //! Times are the shortest of several runs; runs that are compared take turns.
 
@@ -6,7 +7,7 @@ mod programs;
 
 use std::time::{Duration, Instant};
 
-use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, StateSpace, explore};
+use petril::explore::{Budget, Graph, Markings, ScanSpace, explore};
 use petril::flat::flatten;
 use petril::semantics;
 use petril::source::Source;
@@ -23,6 +24,7 @@ fn main() {
     // Without `--bench` this is a run of the tests, which has nothing to measure.
     match (asked("--bench"), asked("largest")) {
         (false, _) => {}
+        (true, _) if asked("program") => print_program(),
         (true, true) => scan_view(&[(3, 7)], 1),
         (true, false) if asked("sizes") => program_sizes(),
         (true, false) => {
@@ -31,6 +33,16 @@ fn main() {
             both_views();
             threads();
         }
+    }
+}
+
+/// Prints the program of `program n m`, or of `program n`, for other tools.
+fn print_program() {
+    let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
+    match *sizes.as_slice() {
+        [inputs, scans] => print!("{}", filters(inputs, scans)),
+        [instructions] => print!("{}", mixed(instructions)),
+        _ => println!("after `program`, there are one or two sizes"),
     }
 }
 
@@ -89,8 +101,8 @@ fn program_size(name: String, instructions: usize, text: &str) -> Vec<String> {
     std::iter::once(name).chain(numbers).collect()
 }
 
-/// Everything reachable in a space, on so many threads.
-fn explored(space: &dyn StateSpace, threads: usize) -> Graph {
+/// Every scan state, found on so many threads.
+fn explored(space: &ScanSpace<'_>, threads: usize) -> Graph {
     let search = || explore(space, Budget::default(), &mut |_| None);
     match ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(search),
@@ -147,9 +159,11 @@ fn both_views() {
     ];
     let rows = [(2, 2), (2, 3), (2, 4), (2, 5), (2, 6), (3, 3), (3, 4)].into_iter().map(|(inputs, scans)| {
         let system = system(&filters(inputs, scans));
-        let (scans_of, markings_of) = (ScanSpace::new(&system), MarkingSpace::new(&system.net));
-        let [(scan_time, states), (firing_time, markings)] =
-            shortest(RUNS, [&mut || explored(&scans_of, 2), &mut || explored(&markings_of, 2)]);
+        let space = ScanSpace::new(&system);
+        let [(scan_time, states)] = shortest(RUNS, [&mut || explored(&space, 2)]);
+        let markings = || Markings::explored(&system.net, Budget::default(), &mut |_| None);
+        let [(firing_time, markings)] = shortest(RUNS, [&mut || markings()]);
+        let markings = markings.graph();
         vec![
             format!("{inputs} × {scans}"),
             states.len().to_string(),
@@ -159,25 +173,19 @@ fn both_views() {
             milliseconds(firing_time),
             ratio(firing_time, scan_time),
             rate(markings.len() as u64, firing_time),
-            bytes(&markings),
+            bytes(markings),
         ]
     });
     table(&heads, rows);
 }
 
 fn threads() {
-    let row = |view: &str, (inputs, scans), space: &dyn StateSpace| {
-        let [(one, graph), (two, _)] = shortest(RUNS, [&mut || explored(space, 1), &mut || explored(space, 2)]);
+    let rows = [(3, 5), (2, 9), (3, 6)].into_iter().map(|(inputs, scans)| {
+        let system = system(&filters(inputs, scans));
+        let space = ScanSpace::new(&system);
+        let [(one, graph), (two, _)] = shortest(RUNS, [&mut || explored(&space, 1), &mut || explored(&space, 2)]);
         let (program, states) = (format!("{inputs} × {scans}"), graph.len().to_string());
-        vec![view.to_owned(), program, states, milliseconds(one), milliseconds(two), ratio(one, two)]
-    };
-    let scans = [(3, 5), (2, 9), (3, 6)].into_iter().map(|size: (usize, usize)| {
-        let system = system(&filters(size.0, size.1));
-        row("scan", size, &ScanSpace::new(&system))
+        vec![program, states, milliseconds(one), milliseconds(two), ratio(one, two)]
     });
-    let firings = [(2, 5), (2, 6)].into_iter().map(|size: (usize, usize)| {
-        let system = system(&filters(size.0, size.1));
-        row("transition", size, &MarkingSpace::new(&system.net))
-    });
-    table(&["view", "program", "states", "1 thread, ms", "2 threads, ms", "ratio"], scans.chain(firings));
+    table(&["program", "states", "1 thread, ms", "2 threads, ms", "ratio"], rows);
 }

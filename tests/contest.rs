@@ -10,36 +10,32 @@ use std::{env, fs};
 use petril::exchange::mcc::{self, Query};
 use petril::exchange::{pnml, tina};
 use petril::explore::engine::{Model, Options};
-use petril::explore::{Budget, Graph, MarkingSpace, Stop, engine, explore};
+use petril::explore::{Budget, Markings, Stop, engine};
 use petril::logic::{Bound, Dag, MarkingValuation, Nodes, Valuation, bind_in_net, label, parse_formula};
 use petril::net::{Net, PlaceId, TransitionId};
 use petril::source::Source;
 use petril::verdict::{Examination, Question, Reply, Run, judge};
 
 /// The markings of a net.
-struct Markings<'n> {
-    space: MarkingSpace<'n>,
-    graph: Graph,
-}
+struct Whole<'n>(Markings<'n>);
 
-impl<'n> Markings<'n> {
+impl<'n> Whole<'n> {
     /// Nothing if there are more of them than this, or a place can get a second token.
     fn of(net: &'n Net, limit: u64) -> Option<Self> {
-        let space = MarkingSpace::new(net);
-        let graph = explore(&space, Budget { states: limit, ..Budget::default() }, &mut |_| None);
-        graph.is_complete().then_some(Self { space, graph })
+        let markings = Markings::explored(net, Budget { states: limit, ..Budget::default() }, &mut |_| None);
+        markings.graph().is_complete().then_some(Self(markings))
     }
 
     fn valuation(&self, state: u32) -> MarkingValuation<'_> {
-        MarkingValuation(&self.space, self.graph.state(state))
+        MarkingValuation(&self.0, self.0.graph().state(state))
     }
 
     /// Whether a formula holds at the beginning.
     fn holds(&self, formula: &Bound) -> bool {
         let mut dag = Dag::default();
         let node = dag.add(formula, false);
-        let labels = label(&self.graph, &dag, &|f, state| f.holds_in(&self.valuation(state)).unwrap(), None);
-        self.graph.initial().iter().all(|&state| labels.of(node).contains(state as usize))
+        let labels = label(self.0.graph(), &dag, &|f, state| f.holds_in(&self.valuation(state)).unwrap(), None);
+        self.0.graph().initial().iter().all(|&state| labels.of(node).contains(state as usize))
     }
 
     /// The answer to a property.
@@ -55,7 +51,7 @@ impl<'n> Markings<'n> {
                 let names = places.iter().map(|place| (place.id.as_str(), place.span));
                 let places: Vec<PlaceId> = nodes.places(names).unwrap_or_else(|e| panic!("{e:#?}"));
                 let sum = |state| places.iter().map(|&place| self.valuation(state).tokens(place)).sum::<u64>();
-                self.graph.ids().map(sum).max().unwrap().to_string()
+                self.0.graph().ids().map(sum).max().unwrap().to_string()
             }
         }
     }
@@ -91,9 +87,9 @@ const LAMPS: &str = "pl off1 (1)\npl off2 (1)\ntr switch1 off1 -> on1\ntr back1 
 #[test]
 fn answers_are_those_worked_out_by_hand() {
     let net = tina::read(&Source::new("lamps.net", LAMPS)).unwrap().net;
-    let markings = Markings::of(&net, 100).unwrap();
+    let markings = Whole::of(&net, 100).unwrap();
     // off1 or on1 with off2 or on2; or the lamp is broken, which takes the token of on1, and nothing goes on.
-    assert_eq!(markings.graph.len(), 5);
+    assert_eq!(markings.0.graph().len(), 5);
     let fireable = |name: &str| format!("<is-fireable><transition>{name}</transition></is-fireable>");
     let tokens = |places: &[&str]| {
         let places: String = places.iter().map(|place| format!("<place>{place}</place>")).collect();
@@ -334,7 +330,7 @@ fn answers_are_those_of_the_contest() {
             continue;
         }
         // What has weights, the engine alone explores.
-        let markings = if read.not_safe.is_empty() { Markings::of(&read.net, 30_000) } else { None };
+        let markings = if read.not_safe.is_empty() { Whole::of(&read.net, 30_000) } else { None };
         let (places, transitions) = (ids(model.text(), "place"), ids(model.text(), "transition"));
         let transitions = transitions.iter().map(String::as_str).zip(read.net.transition_ids());
         let nodes = Nodes::by_id(places.iter().map(String::as_str).zip(read.net.place_ids()), transitions);

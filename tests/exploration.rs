@@ -6,7 +6,7 @@ mod support;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use petril::explore::engine::{self, Model, Options};
-use petril::explore::{Budget, Failure, Graph, MarkingSpace, ScanSpace, StateSpace, Stop, explore};
+use petril::explore::{Budget, Failure, Graph, Markings, ScanSpace, Stop, explore};
 use petril::net::{Net, TransitionId};
 use proptest::prelude::*;
 use support::random_net::{any_net, safe_net};
@@ -60,13 +60,14 @@ fn naive(net: &Net) -> Naive {
     found
 }
 
-fn all(space: &dyn StateSpace) -> Graph {
-    explore(space, Budget::default(), &mut |_| None)
+fn all(net: &Net) -> Markings<'_> {
+    Markings::explored(net, Budget::default(), &mut |_| None)
 }
 
 /// A state of the graph in terms of tokens.
-fn unpacked(net: &Net, space: &MarkingSpace<'_>, graph: &Graph, id: u32) -> Tokens {
-    net.place_ids().map(|place| u8::from(space.is_marked(graph.state(id), place))).collect()
+fn unpacked(markings: &Markings<'_>, id: u32) -> Tokens {
+    let state = markings.graph().state(id);
+    markings.net().place_ids().map(|place| u8::from(markings.is_marked(state, place))).collect()
 }
 
 fn sorted<T: Ord>(items: impl IntoIterator<Item = T>) -> Vec<T> {
@@ -81,9 +82,9 @@ proptest! {
     #[test]
     fn a_graph_is_that_of_the_naive_search(net in prop_oneof![safe_net(), any_net()]) {
         let expected = naive(&net);
-        let space = MarkingSpace::new(&net);
-        let graph = all(&space);
-        let marking = |id| unpacked(&net, &space, &graph, id);
+        let markings = all(&net);
+        let graph = markings.graph();
+        let marking = |id| unpacked(&markings, id);
         prop_assert_eq!(graph.is_complete(), expected.is_safe);
         prop_assert_eq!(graph.failures().is_empty(), expected.is_safe);
         let found: BTreeMap<Tokens, usize> = graph.ids().map(|id| (marking(id), graph.path_to(id).len() - 1)).collect();
@@ -98,8 +99,8 @@ proptest! {
 
     #[test]
     fn numbers_rise_with_the_distance_and_rows_run_both_ways(net in safe_net()) {
-        let space = MarkingSpace::new(&net);
-        let graph = all(&space);
+        let markings = all(&net);
+        let graph = markings.graph();
         prop_assert_eq!(graph.initial(), &[0]);
         let distances: Vec<usize> = graph.ids().map(|id| graph.path_to(id).len()).collect();
         prop_assert!(distances.is_sorted());
@@ -144,8 +145,9 @@ proptest! {
     /// Every part of a graph is the beginning of the whole.
     #[test]
     fn a_limit_cuts_and_changes_nothing(net in safe_net(), limit in 1..40_u64) {
-        let space = MarkingSpace::new(&net);
-        let (whole, part) = (all(&space), explore(&space, Budget { states: limit, ..Budget::default() }, &mut |_| None));
+        let budget = Budget { states: limit, ..Budget::default() };
+        let (whole, part) = (all(&net), Markings::explored(&net, budget, &mut |_| None));
+        let (whole, part) = (whole.graph(), part.graph());
         prop_assert!(part.len() <= whole.len());
         for id in part.ids() {
             prop_assert_eq!(part.state(id), whole.state(id));
@@ -161,46 +163,48 @@ proptest! {
 #[test]
 fn the_number_of_threads_does_not_show() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
-    let (scans, markings) = (ScanSpace::new(&system), MarkingSpace::new(&system.net));
-    let with = |threads: usize, space: &(dyn StateSpace + Sync)| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let graph = pool.install(|| all(space));
-        graph
-            .ids()
-            .map(|id| (graph.state(id).to_vec(), graph.successors(id).to_vec(), graph.path_to(id)))
-            .collect::<Vec<_>>()
+    let space = ScanSpace::new(&system);
+    let listed = |graph: &Graph| {
+        let state = |id| (graph.state(id).to_vec(), graph.successors(id).to_vec(), graph.path_to(id));
+        graph.ids().map(state).collect::<Vec<_>>()
     };
-    for space in [&scans as &(dyn StateSpace + Sync), &markings] {
-        let one = with(1, space);
-        assert_eq!(one, with(2, space));
-        assert_eq!(one, with(7, space));
-    }
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let scans = || listed(&explore(&space, Budget::default(), &mut |_| None));
+        pool.install(|| (scans(), listed(all(&system.net).graph())))
+    };
+    let one = with(1);
+    assert_eq!(one, with(2));
+    assert_eq!(one, with(7));
 }
 
 #[test]
 fn a_search_ends_for_one_of_four_reasons() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
-    let space = MarkingSpace::new(&system.net);
-    let run =
-        |budget, watch: &mut dyn FnMut(&petril::explore::Progress) -> Option<String>| explore(&space, budget, watch);
+    let run = |budget, watch: &mut dyn FnMut(&petril::explore::Progress) -> Option<String>| {
+        Markings::explored(&system.net, budget, watch)
+    };
     let whole = Budget::default();
 
     let complete = run(whole, &mut |_| None);
+    let complete = complete.graph();
     assert_eq!((complete.stop(), complete.len(), complete.is_complete()), (&Stop::Complete, 797, true));
     assert_eq!(complete.stop().to_string(), "every state was explored");
 
     let few = run(Budget { states: 100, ..whole }, &mut |_| None);
+    let few = few.graph();
     assert_eq!(few.stop(), &Stop::States(100));
     assert!((100..797).contains(&few.len()) && few.expanded() < few.len() && !few.is_complete());
     assert_eq!(few.stop().to_string(), "the limit of 100 states was reached");
     // Exactly as many as there are is enough.
-    assert!(run(Budget { states: 797, ..whole }, &mut |_| None).is_complete());
-    assert_eq!(run(Budget { states: 796, ..whole }, &mut |_| None).stop(), &Stop::States(796));
+    assert!(run(Budget { states: 797, ..whole }, &mut |_| None).graph().is_complete());
+    assert_eq!(run(Budget { states: 796, ..whole }, &mut |_| None).graph().stop(), &Stop::States(796));
 
     let small = run(Budget { bytes: 4096, ..whole }, &mut |_| None);
+    let small = small.graph();
     assert_eq!(small.stop(), &Stop::Bytes(4096));
     assert!(small.len() < 797 && !small.is_complete());
-    assert_eq!(run(Budget { bytes: 3 << 20, ..whole }, &mut |_| None).stop(), &Stop::Complete);
+    assert_eq!(run(Budget { bytes: 3 << 20, ..whole }, &mut |_| None).graph().stop(), &Stop::Complete);
     assert_eq!(Stop::Bytes(3 << 20).to_string(), "the limit of 3 MiB was reached");
 
     let mut seen = Vec::new();
@@ -208,6 +212,7 @@ fn a_search_ends_for_one_of_four_reasons() {
         seen.push((progress.states, progress.expanded, progress.depth));
         (progress.depth >= 5).then(|| "enough is enough".to_owned())
     });
+    let watched = watched.graph();
     assert_eq!(watched.stop(), &Stop::Watcher("enough is enough".to_owned()));
     assert_eq!(watched.stop().to_string(), "enough is enough");
     assert!(seen.is_sorted() && seen.iter().all(|(states, expanded, _)| expanded <= states), "{seen:?}");
@@ -241,8 +246,8 @@ fn a_second_token_is_a_failure_where_it_falls() {
     let net = petril::exchange::tina::read(&petril::source::Source::new("n", "pl a (1)\ntr t a -> b\ntr u b -> a c\n"))
         .unwrap()
         .net;
-    let space = MarkingSpace::new(&net);
-    let graph = all(&space);
+    let markings = all(&net);
+    let graph = markings.graph();
     // a; b; a c; b c, where u would put a second token on c.
     assert_eq!((graph.len(), graph.stop()), (4, &Stop::Complete));
     let c = net.find_place("c").unwrap();

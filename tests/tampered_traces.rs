@@ -3,7 +3,7 @@
 
 mod support;
 
-use petril::explore::{Budget, Failure, MarkingSpace, ScanSpace, explore};
+use petril::explore::{Budget, Failure, Markings, ScanSpace, explore};
 use petril::flat::Hazard;
 use petril::interpret::Fault;
 use petril::net::TransitionId;
@@ -114,11 +114,11 @@ fn what_is_said_of_the_states_is_asked_at_each() {
 
 /// The firings of a run of the switch through the first scan.
 fn firings(system: &System) -> FiringTrace {
-    let space = MarkingSpace::new(&system.net);
-    let graph = explore(&space, Budget::default(), &mut |_| None);
+    let markings = Markings::explored(&system.net, Budget::default(), &mut |_| None);
+    let graph = markings.graph();
     let path = graph.path_to(graph.len() as u32 - 1);
     let states: Vec<&[u64]> = path.iter().map(|&id| graph.state(id)).collect();
-    firing_trace(&space, &states, None)
+    firing_trace(&markings, &states, None)
 }
 
 #[test]

@@ -7,7 +7,7 @@ mod support;
 use std::collections::{BTreeMap, BTreeSet};
 
 use petril::explore::engine::{self, Model, Options};
-use petril::explore::{Budget, Graph, MarkingSpace, ScanSpace, explore};
+use petril::explore::{Budget, Graph, Markings, ScanSpace, explore};
 use petril::semantics::Role;
 use petril::translate::{Part, System};
 use support::reports::{answer, counterexample, moves, report, values, verdicts};
@@ -101,10 +101,9 @@ fn the_net_has_its_size() {
 #[test]
 fn the_net_behaves_as_the_paper_says() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
-    let space = MarkingSpace::new(&system.net);
-    let graph = explore(&space, Budget::default(), &mut |_| None);
-    assert_eq!(graph.len(), 797);
-    assert!(graph.failures().is_empty(), "the net is safe");
+    let markings = Markings::explored(&system.net, Budget::default(), &mut |_| None);
+    assert_eq!(markings.graph().len(), 797);
+    assert!(markings.graph().failures().is_empty(), "the net is safe");
     let options = Options { keep: true, ..Options::default() };
     let behaviour = engine::explore(&Model::from(&system.net), &options, &mut |_| None, None).behaviour().unwrap();
     assert_eq!(behaviour.deadlocks, 0);

@@ -15,7 +15,7 @@
 
 mod support;
 
-use petril::explore::{Budget, MarkingSpace, ScanSpace, explore};
+use petril::explore::{Budget, Markings, ScanSpace, explore};
 use petril::logic::{Bound, Dag, MarkingValuation, Quantifier, ScanValuation, label};
 use petril::semantics::VarId;
 use petril::translate::{PlaceRole, System};
@@ -97,8 +97,8 @@ fn in_scan_view(system: &System, f: &Bound) -> Option<bool> {
 
 /// The same in the transition view, by the textbook.
 fn in_transition_view(system: &System, f: &Bound) -> bool {
-    let space = MarkingSpace::new(&system.net);
-    let graph = explore(&space, Budget::default(), &mut |_| None);
+    let space = Markings::explored(&system.net, Budget::default(), &mut |_| None);
+    let graph = space.graph();
     assert!(graph.is_complete(), "the net is safe");
     let end = Bound::Marked(system.place(PlaceRole::Line(system.program.end())));
     let idle = system.place(PlaceRole::Idle);
@@ -134,11 +134,12 @@ proptest! {
     #[test]
     fn on_states(text in random_program::text(6), device in proptest::option::of(random_program::device())) {
         let system = random_program::system(support::program(&text), device.as_ref());
-        let (scans, markings) = (ScanSpace::new(&system), MarkingSpace::new(&system.net));
+        let scans = ScanSpace::new(&system);
         let graph = explore(&scans, Budget::default(), &mut |_| None);
         let mut from_scans: Vec<Vec<bool>> =
             graph.ids().map(|s| system.program.declared().map(|v| scans.value(graph.state(s), v) == 1).collect()).collect();
-        let all = explore(&markings, Budget::default(), &mut |_| None);
+        let markings = Markings::explored(&system.net, Budget::default(), &mut |_| None);
+        let all = markings.graph();
         let end = system.place(PlaceRole::Line(system.program.end()));
         let at_end = all.ids().filter(|&s| markings.is_marked(all.state(s), end));
         let value = |s, variable| markings.is_marked(all.state(s), system.place(PlaceRole::Bit { variable, bit: 0, value: true }));

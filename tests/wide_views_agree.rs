@@ -5,7 +5,7 @@ mod support;
 
 use std::collections::BTreeSet;
 
-use petril::explore::{Budget, MarkingSpace, ScanSpace, explore};
+use petril::explore::{Budget, Markings, ScanSpace, explore};
 use petril::flat::Tolerated;
 use petril::semantics::VarId;
 use petril::translate::{Domain, Domains, PlaceRole, Plant, System};
@@ -43,8 +43,8 @@ proptest! {
         let from_scans: BTreeSet<Vec<u64>> = graph.ids().map(|id| value(graph.state(id))).collect();
         prop_assert_eq!(from_scans.len(), graph.len());
 
-        let markings = MarkingSpace::new(&system.net);
-        let all = explore(&markings, Budget::default(), &mut |_| None);
+        let markings = Markings::explored(&system.net, Budget::default(), &mut |_| None);
+        let all = markings.graph();
         let end = system.place(PlaceRole::Line(system.program.end()));
         let at_end = all.ids().map(|id| all.state(id)).filter(|state| markings.is_marked(state, end));
         let value = |state, id| system.value(id, |place| markings.is_marked(state, place)).unwrap();

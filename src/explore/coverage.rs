@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
+use super::circuit::{Circuit, LANES, Scratch};
 use super::graph::Graph;
 use super::scan_space::{ScanSpace, ScanState};
 use crate::flat::{Condition, FlatProgram, Instruction};
@@ -34,11 +35,16 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph) -> Vec<usize> {
         }
     }
     let none = || FixedBitSet::with_capacity(program.end() + 1);
-    let add = |mut executed: FixedBitSet, state: &Option<u32>| {
-        execute(space, &space.state(*state, graph), &mut executed);
+    let circuit = space.line_circuit();
+    let piece = |states: &[Option<u32>]| {
+        let mut executed = none();
+        match &circuit {
+            Some(circuit) => execute_together(space, circuit, graph, states, &mut executed),
+            None => states.iter().for_each(|state| execute(space, &space.state(*state, graph), &mut executed)),
+        }
         executed
     };
-    executed.union_with(&rest.par_iter().fold(none, add).reduce(none, |a, b| &a | &b));
+    executed.union_with(&rest.par_chunks(FIRST).map(piece).reduce(none, |a, b| &a | &b));
     possible.difference(&executed).collect()
 }
 
@@ -59,6 +65,28 @@ fn execute(space: &ScanSpace<'_>, from: &ScanState, executed: &mut FixedBitSet) 
         }
         executed.insert(machine.line());
     });
+}
+
+/// The same for states of the graph, many scans at once.
+fn execute_together(
+    space: &ScanSpace<'_>,
+    circuit: &Circuit,
+    graph: &Graph,
+    states: &[Option<u32>],
+    executed: &mut FixedBitSet,
+) {
+    let (mut lanes, mut scratch) = (Vec::new(), Scratch::default());
+    for &state in states.iter().flatten() {
+        let state = graph.state(state);
+        space.packed_beginnings(state, |begin| {
+            lanes.extend_from_slice(begin);
+            if lanes.len() == LANES * begin.len() {
+                circuit.reach(&lanes, &mut scratch, executed);
+                lanes.clear();
+            }
+        });
+    }
+    circuit.reach(&lanes, &mut scratch, executed);
 }
 
 /// The lines and the end, as far as control can come to them by the jumps there are.

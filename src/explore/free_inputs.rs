@@ -1,6 +1,7 @@
 //! The inputs that no plant drives: the values that each scan may read, one combination after another.
 
-use crate::interpret::Machine;
+use smallvec::{SmallVec, smallvec};
+
 use crate::semantics::VarId;
 use crate::translate::{Domain, System};
 
@@ -69,30 +70,38 @@ impl FreeInputs {
         Some(format!("a scan can read more than {MAX_FAN_OUT} combinations of values of the inputs {names}: {advice}"))
     }
 
-    /// Calls `each` once for each combination, the machine having these values. The last input changes fastest.
-    pub fn for_each<'p>(&self, machine: &mut Machine<'p>, each: &mut dyn FnMut(&mut Machine<'p>, &Setting<'_>)) {
-        let mut digits = vec![0; self.inputs.len()];
+    /// Calls `each` once for each combination. The last input changes fastest.
+    pub fn for_each(&self, mut each: impl FnMut(&Setting<'_>)) {
+        let mut digits: SmallVec<[usize; 16]> = smallvec![0; self.inputs.len()];
+        let mut turned = 0;
         loop {
-            each(machine, &Setting { inputs: self, digits: &digits });
+            each(&Setting { inputs: &self.inputs, digits: &digits, turned });
             let more = |(&digit, input): (&usize, &FreeInput)| digit + 1 < input.patterns.len();
             let Some(turn) = digits.iter().zip(&self.inputs).rposition(more) else { return };
             digits[turn] += 1;
             digits[turn + 1..].fill(0);
+            turned = turn;
         }
     }
 }
 
 /// One combination of values.
 pub struct Setting<'f> {
-    inputs: &'f FreeInputs,
+    inputs: &'f [FreeInput],
     digits: &'f [usize],
+    /// The first input whose value is not that of the combination before.
+    turned: usize,
 }
 
 impl Setting<'_> {
-    /// Gives the inputs of a machine these values.
-    pub fn copy_to(&self, machine: &mut Machine<'_>) {
-        for (input, &digit) in self.inputs.inputs.iter().zip(self.digits) {
-            machine.set(input.variable, input.patterns[digit]);
-        }
+    /// The inputs with their values.
+    pub fn values(&self) -> impl Iterator<Item = (VarId, u64)> {
+        let inputs = self.inputs.iter().zip(self.digits);
+        inputs.map(|(input, &digit)| (input.variable, input.patterns[digit]))
+    }
+
+    /// The inputs that had other values in the combination before, all of them in the first.
+    pub fn changed(&self) -> impl Iterator<Item = (VarId, u64)> {
+        self.values().skip(self.turned)
     }
 }

@@ -8,12 +8,14 @@ use fixedbitset::FixedBitSet;
 
 use super::budget::Stop;
 use super::space::Failure;
-use super::store::Store;
 use crate::rows::Rows;
 
 /// A graph of states numbered in breadth-first order, so that a state's number never exceeds that of a state farther away.
 pub struct Graph {
-    pub(super) store: Store,
+    /// The states' words, one state after another; nothing if they are kept elsewhere.
+    pub(super) arena: Vec<u64>,
+    pub(super) words: usize,
+    pub(super) len: usize,
     /// The initial states.
     pub(super) initial: Vec<u32>,
     /// The row of each expanded state, which are the first ones.
@@ -21,8 +23,6 @@ pub struct Graph {
     /// `targets[starts[r]..starts[r + 1]]` is row r.
     pub(super) starts: Vec<u64>,
     pub(super) targets: Vec<u32>,
-    /// The state from which a state was first reached; its own number for an initial state.
-    pub(super) parents: Vec<u32>,
     /// First state of each breadth-first level.
     pub(super) levels: Vec<u32>,
     /// States with a step that leads nowhere: of each row its first state, once for each failure; `None` stands for the
@@ -31,6 +31,8 @@ pub struct Graph {
     pub(super) stop: Stop,
     pub(super) members: OnceLock<Rows<u32>>,
     pub(super) backward: OnceLock<Rows<u32>>,
+    /// The state from which a state was first reached; its own number for an initial state.
+    pub(super) parents: OnceLock<Vec<u32>>,
 }
 
 impl Graph {
@@ -42,32 +44,34 @@ impl Graph {
     #[must_use]
     pub fn of_rows(starts: Vec<u64>, targets: Vec<u32>, stop: Stop) -> Self {
         let states = starts.len().saturating_sub(1) as u32;
-        let store = Store::elsewhere(states as usize + usize::from(stop != Stop::Complete));
+        let len = states as usize + usize::from(stop != Stop::Complete);
         let (initial, row_of) = ((0..states.min(1)).collect(), (0..states).collect());
-        Self { store, initial, row_of, starts, targets, stop, ..Self::empty(0) }
+        Self { len, initial, row_of, starts, targets, stop, ..Self::empty(0) }
     }
 
     /// No states yet, of this many words.
     pub(super) fn empty(words: usize) -> Self {
         Self {
-            store: Store::new(words),
+            arena: Vec::new(),
+            words,
+            len: 0,
             initial: Vec::new(),
             row_of: Vec::new(),
             starts: vec![0],
             targets: Vec::new(),
-            parents: Vec::new(),
             levels: Vec::new(),
             failures: Vec::new(),
             stop: Stop::Complete,
             members: OnceLock::new(),
             backward: OnceLock::new(),
+            parents: OnceLock::new(),
         }
     }
 
     /// How many states there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.store.len()
+        self.len
     }
 
     /// Whether there is no state at all.
@@ -85,7 +89,8 @@ impl Graph {
     /// The words of a state.
     #[must_use]
     pub fn state(&self, id: u32) -> &[u64] {
-        self.store.get(id)
+        let start = id as usize * self.words;
+        &self.arena[start..start + self.words]
     }
 
     /// The initial states.
@@ -187,20 +192,38 @@ impl Graph {
     /// A shortest way from an initial state to a state, both included.
     #[must_use]
     pub fn path_to(&self, id: u32) -> Vec<u32> {
+        let parents = self.parents.get_or_init(|| self.first_reached_from());
         let mut path = vec![id];
         let mut at = id;
-        while self.parents[at as usize] != at {
-            at = self.parents[at as usize];
+        while parents[at as usize] != at {
+            at = parents[at as usize];
             path.push(at);
         }
         path.reverse();
         path
     }
 
+    /// For each state the first one with a step to it. As rows are in the order of distances, that is one of the nearest.
+    fn first_reached_from(&self) -> Vec<u32> {
+        let mut first_of_row = vec![u32::MAX; self.rows()];
+        for (state, &row) in self.row_of.iter().enumerate().rev() {
+            first_of_row[row as usize] = state as u32;
+        }
+        let mut parents = vec![u32::MAX; self.len];
+        self.initial.iter().for_each(|&state| parents[state as usize] = state);
+        for (row, &state) in (0..).zip(&first_of_row) {
+            for &target in self.row(row) {
+                let parent = &mut parents[target as usize];
+                *parent = if *parent == u32::MAX { state } else { *parent };
+            }
+        }
+        parents
+    }
+
     /// Bytes in use, without the lists that are built when asked for.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        let numbers = self.row_of.capacity() + self.targets.capacity() + self.parents.capacity();
-        self.store.bytes() + (self.starts.capacity() * 8 + numbers * 4) as u64
+        let numbers = self.row_of.capacity() + self.targets.capacity();
+        ((self.arena.capacity() + self.starts.capacity()) * 8 + numbers * 4) as u64
     }
 }

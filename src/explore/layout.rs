@@ -18,6 +18,11 @@ impl Field {
     pub(super) fn set(self, state: &mut [u64], value: u64) {
         state[self.word] = state[self.word] & !(self.mask << self.shift) | (value & self.mask) << self.shift;
     }
+
+    /// Where its bits are, the least first: the word, and the bit there.
+    pub(super) fn positions(self) -> impl Iterator<Item = (usize, u32)> {
+        (0..self.mask.count_ones()).map(move |bit| (self.word, self.shift + bit))
+    }
 }
 
 /// Fields one after another, none across the end of a word.

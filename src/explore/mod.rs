@@ -1,9 +1,11 @@
 //! Reachable states: a seam ([`StateSpace`]), a packed store, a breadth-first search, and the graph it leaves.
 //!
-//! Two spaces are made from a system: [`MarkingSpace`], where every firing is a step (the transition view), and
-//! [`ScanSpace`], where a step is one scan (the scan view). The search knows nothing of either.
+//! Two graphs are made from a system: that of its [`Markings`], where every firing is a step (the transition view), explored by
+//! the [`engine`]; and that of its [`ScanSpace`], where a step is one scan (the scan view), explored by [`explore`], which knows
+//! nothing of programs.
 
 mod budget;
+mod circuit;
 mod components;
 mod coverage;
 pub mod engine;
@@ -11,11 +13,13 @@ mod free_inputs;
 mod goal;
 mod graph;
 mod layout;
-mod marking_space;
+mod markings;
+mod scan_lanes;
 mod scan_space;
 mod search;
 mod space;
 mod store;
+mod table;
 mod tarjan;
 mod walk;
 
@@ -25,8 +29,8 @@ pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;
 pub use goal::{Goal, Tokens};
 pub use graph::Graph;
-pub use marking_space::MarkingSpace;
+pub use markings::Markings;
 pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
-pub use space::{Failure, StateSpace, Step};
+pub use space::{Failure, StateSpace, Step, Successors};
 pub use walk::{Walk, without_loops};

@@ -7,14 +7,19 @@
 //!
 //! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::circuit::Circuit;
 use super::free_inputs::FreeInputs;
 use super::graph::Graph;
 use super::layout::{Field, Layout};
-use super::space::{Failure, StateSpace, Step};
-use crate::flat::Tolerated;
+use super::scan_lanes::Lanes;
+use super::space::{Failure, StateSpace, Step, Successors};
+use crate::flat::{Tolerated, Variable};
 use crate::interpret::Machine;
-use crate::semantics::VarId;
+use crate::semantics::{Role, VarId};
 use crate::translate::System;
+use smallvec::SmallVec;
 
 /// The scan states of a system.
 pub struct ScanSpace<'s> {
@@ -22,13 +27,17 @@ pub struct ScanSpace<'s> {
     tolerated: Tolerated,
     /// Where each plant component's marking stands in a state.
     components: Vec<Field>,
-    /// Where each declared variable stands in a state.
+    /// Where each variable stands in a state; buffers have no bits there.
     variables: Vec<(VarId, Field)>,
     free_inputs: FreeInputs,
     words: usize,
     /// The bits that make a difference to later scans: the plant's markings, what the program carries over, and the outputs
     /// the plant looks at.
     relevant: Vec<u64>,
+    /// The scan as gates, if that is faster.
+    circuit: Option<Circuit>,
+    /// The gates and the interpreter were seen to disagree.
+    is_refuted: AtomicBool,
 }
 
 /// A scan state in plain form.
@@ -65,22 +74,30 @@ impl<'s> ScanSpace<'s> {
         let width = |markings: usize| usize::BITS - (markings - 1).leading_zeros();
         let markings = system.plant.components.iter().map(|component| component.markings.len());
         let components: Vec<Field> = markings.map(|markings| layout.field(width(markings))).collect();
-        let declared = system.program.declared();
-        let variables: Vec<(VarId, Field)> =
-            declared.map(|variable| (variable, layout.field(system.program.variable(variable).bits))).collect();
+        let bits = |variable: &Variable| if variable.role == Role::Buffer { 0 } else { variable.bits };
+        let fields = system.program.variables.iter().map(|variable| layout.field(bits(variable)));
+        let variables: Vec<(VarId, Field)> = (0..).map(VarId).zip(fields).collect();
         let mut carried = system.program.carried();
         carried.extend(system.plant.tested().map(|output| output.0));
         let mut relevant = vec![0; layout.words()];
         let kept = variables.iter().filter(|(variable, _)| carried.contains(variable.0)).map(|(_, field)| field);
         components.iter().chain(kept).for_each(|field| field.set(&mut relevant, u64::MAX));
-        let free_inputs = FreeInputs::new(system);
-        Self { system, tolerated, components, variables, free_inputs, words: layout.words(), relevant }
+        let (free_inputs, words) = (FreeInputs::new(system), layout.words());
+        let circuit = Circuit::of(&system.program, tolerated, &variables, words);
+        let is_refuted = AtomicBool::new(false);
+        Self { system, tolerated, components, variables, free_inputs, words, relevant, circuit, is_refuted }
     }
 
     /// The system.
     #[must_use]
     pub fn system(&self) -> &'s System {
         self.system
+    }
+
+    /// Whether scans are computed by gates, many at once; else the interpreter computes one after another.
+    #[must_use]
+    pub fn has_gates(&self) -> bool {
+        self.circuit.is_some()
     }
 
     /// A state in plain form.
@@ -96,7 +113,6 @@ impl<'s> ScanSpace<'s> {
     /// The value of a declared variable in a state.
     #[must_use]
     pub fn value(&self, state: &[u64], variable: VarId) -> u64 {
-        // Declared variables come first in a program, in this order.
         self.variables[variable.0].1.get(state)
     }
 
@@ -121,12 +137,17 @@ impl<'s> ScanSpace<'s> {
         self.variables.iter().for_each(|&(variable, field)| field.set(state, machine.value(variable)));
     }
 
+    /// What tells which lines a scan executes, for [`ScanSpace::packed_beginnings`].
+    pub(super) fn line_circuit(&self) -> Option<Circuit> {
+        Circuit::of_lines(&self.system.program, self.tolerated, &self.variables, self.words)
+    }
+
     /// For each component, the markings it can be in when the next scan begins.
-    fn plant_choices(&self, from: &ScanState) -> Vec<Vec<usize>> {
-        let components = self.system.plant.components.iter().zip(&from.plant);
+    fn plant_choices(&self, plant: impl Fn(usize) -> usize, output: impl Fn(VarId) -> u64) -> Vec<Vec<usize>> {
+        let components = self.system.plant.components.iter().enumerate();
         components
-            .map(|(component, &marking)| {
-                let closure = component.closure(marking, |output| from.memory[output.0]);
+            .map(|(number, component)| {
+                let closure = component.closure(plant(number), &output);
                 closure.into_iter().map(|(marking, _)| marking).collect()
             })
             .collect()
@@ -154,30 +175,68 @@ impl<'s> ScanSpace<'s> {
 
     /// Calls `visit` for the machine before each scan from a state, its inputs set, with the plant's markings.
     pub(super) fn beginnings<'m>(&'m self, from: &ScanState, visit: &mut dyn FnMut(&mut Machine<'m>, &[usize])) {
-        let choices = self.plant_choices(from);
+        let choices = self.plant_choices(|component| from.plant[component], |output| from.memory[output.0]);
         let mut machine = Machine::new(&self.system.program);
-        let mut odometer = vec![0; choices.len()];
-        let mut plant = vec![0; choices.len()];
-        loop {
-            for (slot, (choice, &digit)) in plant.iter_mut().zip(choices.iter().zip(&odometer)) {
-                *slot = choice[digit];
-            }
-            self.free_inputs.for_each(&mut machine, &mut |machine, setting| {
+        combinations(&choices, |plant| {
+            self.free_inputs.for_each(|setting| {
                 machine.restore(&from.memory);
-                for (component, &marking) in self.system.plant.components.iter().zip(&plant) {
+                for (component, &marking) in self.system.plant.components.iter().zip(plant) {
                     component.markings[marking].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
                 }
-                setting.copy_to(machine);
-                visit(machine, &plant);
+                setting.values().for_each(|(input, value)| machine.set(input, value));
+                visit(&mut machine, plant);
             });
-            // The next combination of plant markings, the last component fastest.
-            let Some(turn) = odometer.iter().zip(&choices).rposition(|(&digit, choice)| digit + 1 < choice.len())
-            else {
-                return;
-            };
-            odometer[turn] += 1;
-            odometer[turn + 1..].fill(0);
+        });
+    }
+
+    /// Calls `visit` for each packed state in which a scan from a packed state begins.
+    pub(super) fn packed_beginnings(&self, from: &[u64], mut visit: impl FnMut(&[u64])) {
+        let field = |input: VarId| self.variables[input.0].1;
+        let mut begin: SmallVec<[u64; 8]> = SmallVec::from_slice(from);
+        combinations(&self.packed_choices(from), |plant| {
+            let components = self.system.plant.components.iter().zip(&self.components).zip(plant);
+            for ((component, own), &marking) in components {
+                own.set(&mut begin, marking as u64);
+                let inputs = &component.markings[marking].inputs;
+                inputs.iter().for_each(|&(input, value)| field(input).set(&mut begin, value));
+            }
+            self.free_inputs.for_each(|setting| {
+                setting.changed().for_each(|(input, value)| field(input).set(&mut begin, value));
+                visit(&begin);
+            });
+        });
+    }
+
+    fn packed_choices(&self, from: &[u64]) -> Vec<Vec<usize>> {
+        let plant = |component: usize| self.components[component].get(from) as usize;
+        self.plant_choices(plant, |output| self.value(from, output))
+    }
+
+    /// Whether the interpreter ends a scan from a packed state in this way too. If not, the space is refused from now on.
+    pub(super) fn confirm(&self, begin: &[u64], end: Result<&[u64], Failure>) {
+        let mut machine = Machine::new(&self.system.program);
+        machine.restore(&self.unpack(begin).memory);
+        let mut expected = begin.to_vec();
+        let ended = self.scan(&mut machine);
+        self.variables.iter().for_each(|&(variable, field)| field.set(&mut expected, machine.value(variable)));
+        if ended.map(|()| expected.as_slice()) != end {
+            self.is_refuted.store(true, Ordering::Relaxed);
         }
+    }
+}
+
+/// Calls `each` for each choice of one from each list, the last list fastest.
+fn combinations(lists: &[Vec<usize>], mut each: impl FnMut(&[usize])) {
+    let mut digits = vec![0; lists.len()];
+    let mut chosen = vec![0; lists.len()];
+    loop {
+        for (chosen, (list, &digit)) in chosen.iter_mut().zip(lists.iter().zip(&digits)) {
+            *chosen = list[digit];
+        }
+        each(&chosen);
+        let Some(turn) = digits.iter().zip(lists).rposition(|(&digit, list)| digit + 1 < list.len()) else { return };
+        digits[turn] += 1;
+        digits[turn + 1..].fill(0);
     }
 }
 
@@ -194,17 +253,41 @@ impl StateSpace for ScanSpace<'_> {
         self.scans(&self.unpack(state), &mut |run| visit(step(run.end)));
     }
 
+    fn expand(&self, states: &[u64], into: &mut Successors) {
+        let Some(circuit) = &self.circuit else {
+            for state in states.chunks_exact(self.words) {
+                self.successors(state, &mut |step| into.add(step));
+                into.finish();
+            }
+            return;
+        };
+        let mut lanes = Lanes::new(self, circuit, self.words);
+        for state in states.chunks_exact(self.words) {
+            self.packed_beginnings(state, |begin| lanes.add(begin, into));
+            lanes.finish();
+        }
+        lanes.run(into);
+    }
+
     fn relevant(&self) -> Option<&[u64]> {
         Some(&self.relevant)
     }
 
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {
-        let from = state.map_or_else(|| self.power_on(), |state| self.unpack(state));
         let free = u64::try_from(self.free_inputs.combinations()).unwrap_or(u64::MAX);
-        self.plant_choices(&from).iter().fold(free, |product, choice| product.saturating_mul(choice.len() as u64))
+        let choices = match state {
+            Some(state) => self.packed_choices(state),
+            None => self.plant_choices(|_| 0, |output| self.system.program.variable(output).initial),
+        };
+        choices.iter().fold(free, |product, choice| product.saturating_mul(choice.len() as u64))
     }
 
     fn refusal(&self) -> Option<String> {
+        if self.is_refuted.load(Ordering::Relaxed) {
+            return Some(
+                "two ways to compute a scan disagree, which is an error in Petril; please report it".to_owned(),
+            );
+        }
         self.free_inputs.refusal()
     }
 }

@@ -18,6 +18,14 @@ pub trait StateSpace: Sync {
     /// Calls `visit` for each step out of a state.
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>));
 
+    /// The steps out of some states, given one after another. What is computed for many states at once is computed here.
+    fn expand(&self, states: &[u64], into: &mut Successors) {
+        for state in states.chunks_exact(self.words()) {
+            self.successors(state, &mut |step| into.add(step));
+            into.finish();
+        }
+    }
+
     /// The bits of a state that its steps depend on: states that agree in these have the same steps. `None` if all do.
     fn relevant(&self) -> Option<&[u64]> {
         None
@@ -30,7 +38,7 @@ pub trait StateSpace: Sync {
         8
     }
 
-    /// Why the space is too large for any search, and what its owner can do about it.
+    /// Why the space is too large for any search, and what its owner can do about it; or why its steps cannot be trusted.
     fn refusal(&self) -> Option<String> {
         None
     }
@@ -54,4 +62,36 @@ pub enum Failure {
     Hazard(usize, Hazard),
     /// A firing puts a second token on a place.
     NotSafe(PlaceId),
+}
+
+/// The steps out of some states, state after state.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Successors {
+    /// The words of the states they lead to.
+    pub(super) words: Vec<u64>,
+    /// For each state, where the words of its successors end.
+    pub(super) ends: Vec<usize>,
+    /// How steps fail, each with the position of the state, once for each.
+    pub(super) failures: Vec<(usize, Failure)>,
+}
+
+impl Successors {
+    /// A step out of the state at hand.
+    pub fn add(&mut self, step: Step<'_>) {
+        match step {
+            Step::To(state) => self.words.extend_from_slice(state),
+            Step::Fails(failure) => {
+                let failure = (self.ends.len(), failure);
+                let mut own = self.failures.iter().rev().take_while(|(state, _)| *state == failure.0);
+                if !own.any(|&known| known == failure) {
+                    self.failures.push(failure);
+                }
+            }
+        }
+    }
+
+    /// All steps out of the state at hand were added.
+    pub fn finish(&mut self) {
+        self.ends.push(self.words.len());
+    }
 }

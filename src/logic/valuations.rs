@@ -1,7 +1,7 @@
 //! What packed states say of atoms, in both views.
 
 use super::bound::Valuation;
-use crate::explore::{MarkingSpace, ScanSpace};
+use crate::explore::{Markings, ScanSpace};
 use crate::net::{PlaceId, TransitionId};
 use crate::semantics::VarId;
 
@@ -31,7 +31,7 @@ impl Valuation for ScanValuation<'_> {
 }
 
 /// A packed marking. Formulas bound for the transition view speak of places and transitions only.
-pub struct MarkingValuation<'a>(pub &'a MarkingSpace<'a>, pub &'a [u64]);
+pub struct MarkingValuation<'a>(pub &'a Markings<'a>, pub &'a [u64]);
 
 impl Valuation for MarkingValuation<'_> {
     fn value(&self, _: VarId) -> u64 {
@@ -51,6 +51,6 @@ impl Valuation for MarkingValuation<'_> {
     }
 
     fn is_deadlock(&self) -> bool {
-        !self.0.net().transition_ids().any(|transition| self.is_enabled(transition))
+        self.0.is_deadlock(self.1)
     }
 }

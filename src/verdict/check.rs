@@ -8,7 +8,7 @@ use super::failing::what_is_missing;
 use super::remarks::remarks;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::{Answer, Exploration, Outcome, Report, hazards, scan_ends};
-use crate::explore::{Budget, Graph, MarkingSpace, Progress, ScanSpace, explore};
+use crate::explore::{Budget, Graph, Markings, Progress, ScanSpace, explore};
 use crate::flat::Tolerated;
 use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label, vacuous_premise};
 use crate::translate::{PlaceRole, System};
@@ -47,17 +47,20 @@ pub fn check(
     let transition_view;
     let view: &dyn SystemView = match options.view {
         View::Scan => {
-            scan_view = ScanView(ScanSpace::tolerating(system, options.tolerated));
+            let space = ScanSpace::tolerating(system, options.tolerated);
+            let graph = explore(&space, options.budget, watch);
+            scan_view = ScanView { space, graph };
             &scan_view
         }
         View::Transition => {
-            transition_view = TransitionView { space: MarkingSpace::new(&system.net), system };
+            let markings = Markings::explored(&system.net, options.budget, watch);
+            transition_view = TransitionView { markings, system };
             &transition_view
         }
     };
-    let graph = explore(view.space(), options.budget, watch);
-    let fair = options.fair.then(|| scanning(view, &graph));
-    let judge = Judge { view, graph: &graph, fair: fair.as_ref() };
+    let graph = view.graph();
+    let fair = options.fair.then(|| scanning(view, graph));
+    let judge = Judge { view, graph, fair: fair.as_ref() };
     let answers = requirements.par_iter().map(|(requirement, bound)| Answer {
         name: requirement.name.clone(),
         sentence: requirement.sentence.clone(),
@@ -67,11 +70,11 @@ pub fn check(
     let answers = answers.collect();
     let unfair = Judge { fair: None, ..judge };
     let ends = match view.scans() {
-        Some(space) => scan_ends::on_scans(space, &graph),
+        Some(space) => scan_ends::on_scans(space, graph),
         None => unfair.outcome(&scan_ends::formula(system)),
     };
     let met = |hazard| match view.scans() {
-        Some(space) => hazards::on_scans(space, &graph, hazard),
+        Some(space) => hazards::on_scans(space, graph, hazard),
         None => unfair.outcome(&hazards::formula(system, hazard)),
     };
     let hazards = hazards::checked(&system.program, options.tolerated);
@@ -93,7 +96,7 @@ pub fn check(
         assumptions: assumptions(system, &options),
         answers,
         checks,
-        remarks: view.scans().map(|space| remarks(space, &graph)).unwrap_or_default(),
+        remarks: view.scans().map(|space| remarks(space, graph)).unwrap_or_default(),
     }
 }
 

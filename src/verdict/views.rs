@@ -1,7 +1,7 @@
 //! What the two views have in common for a check: states, what holds in them, and traces to them.
 
 use super::{Trace, Witness};
-use crate::explore::{Graph, MarkingSpace, ScanSpace, StateSpace};
+use crate::explore::{Graph, Markings, ScanSpace};
 use crate::logic::{Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
 use crate::translate::System;
 use crate::verdict::Note;
@@ -10,7 +10,7 @@ use crate::witness::{Disagreement, Holds, firing_trace, replay_firings, replay_s
 /// A view of a system.
 pub trait SystemView: Sync {
     /// Its states and steps.
-    fn space(&self) -> &dyn StateSpace;
+    fn graph(&self) -> &Graph;
     /// Its states as ends of scans, if they are.
     fn scans(&self) -> Option<&ScanSpace<'_>>;
     /// The system.
@@ -27,23 +27,26 @@ pub trait SystemView: Sync {
 }
 
 /// The scan view.
-pub struct ScanView<'s>(pub ScanSpace<'s>);
+pub struct ScanView<'s> {
+    pub space: ScanSpace<'s>,
+    pub graph: Graph,
+}
 
 impl SystemView for ScanView<'_> {
-    fn space(&self) -> &dyn StateSpace {
-        &self.0
+    fn graph(&self) -> &Graph {
+        &self.graph
     }
 
     fn scans(&self) -> Option<&ScanSpace<'_>> {
-        Some(&self.0)
+        Some(&self.space)
     }
 
     fn system(&self) -> &System {
-        self.0.system()
+        self.space.system()
     }
 
     fn holds(&self, formula: &Bound, state: &[u64]) -> bool {
-        formula.holds_in(&ScanValuation(&self.0, state)).unwrap_or(false)
+        formula.holds_in(&ScanValuation(&self.space, state)).unwrap_or(false)
     }
 
     fn replayed(
@@ -52,7 +55,7 @@ impl SystemView for ScanView<'_> {
         loop_start: Option<usize>,
         shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement> {
-        let trace = scan_trace(&self.0, states, loop_start, None);
+        let trace = scan_trace(&self.space, states, loop_start, None);
         replay_scans(self.system(), &trace, shows)?;
         Ok(Trace::Scans(trace))
     }
@@ -60,13 +63,13 @@ impl SystemView for ScanView<'_> {
 
 /// The transition view.
 pub struct TransitionView<'s> {
-    pub space: MarkingSpace<'s>,
+    pub markings: Markings<'s>,
     pub system: &'s System,
 }
 
 impl SystemView for TransitionView<'_> {
-    fn space(&self) -> &dyn StateSpace {
-        &self.space
+    fn graph(&self) -> &Graph {
+        self.markings.graph()
     }
 
     fn scans(&self) -> Option<&ScanSpace<'_>> {
@@ -78,7 +81,7 @@ impl SystemView for TransitionView<'_> {
     }
 
     fn holds(&self, formula: &Bound, state: &[u64]) -> bool {
-        formula.holds_in(&MarkingValuation(&self.space, state)).unwrap_or(false)
+        formula.holds_in(&MarkingValuation(&self.markings, state)).unwrap_or(false)
     }
 
     fn replayed(
@@ -87,7 +90,7 @@ impl SystemView for TransitionView<'_> {
         loop_start: Option<usize>,
         shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement> {
-        let trace = firing_trace(&self.space, states, loop_start);
+        let trace = firing_trace(&self.markings, states, loop_start);
         if trace.firings.len() + 1 != states.len() + usize::from(loop_start.is_some()) {
             return Err(Disagreement("no transition leads from one state of the trace to the next".to_owned()));
         }

@@ -1,7 +1,7 @@
 //! Traces of the transition view: firing sequences.
 
 use super::replay::{Disagreement, Replay};
-use crate::explore::{MarkingSpace, Step};
+use crate::explore::{Markings, Step};
 use crate::net::TransitionId;
 use crate::translate::System;
 
@@ -16,12 +16,12 @@ pub struct FiringTrace {
 
 /// The trace of packed markings that follow one another, the first being the initial one.
 #[must_use]
-pub fn firing_trace(space: &MarkingSpace<'_>, states: &[&[u64]], loop_start: Option<usize>) -> FiringTrace {
+pub fn firing_trace(markings: &Markings<'_>, states: &[&[u64]], loop_start: Option<usize>) -> FiringTrace {
     let closing = loop_start.map(|start| states[start]);
     let successors = states.iter().skip(1).copied().chain(closing);
     let firings = states.iter().zip(successors).filter_map(|(&from, to)| {
         let mut fired = None;
-        space.firings(from, &mut |transition, step| {
+        markings.firings(from, &mut |transition, step| {
             if fired.is_none() && matches!(step, Step::To(next) if next == to) {
                 fired = Some(transition);
             }

@@ -118,6 +118,11 @@ impl Bounds {
         digits
     }
 
+    /// Whether a place is known to have at most one token.
+    pub(super) fn is_safe(&self, place: usize) -> bool {
+        self.bounds[place].is_some_and(|bound| bound <= 1) || !self.changes[place] && self.initial[place] <= 1
+    }
+
     /// Whether the number of tokens of a place is known to be limited.
     pub(super) fn is_bounded(&self, place: usize) -> bool {
         self.bounds[place].is_some() || !self.changes[place]

@@ -83,6 +83,20 @@ impl Exploration {
         (!stopping.load(Ordering::Relaxed)).then_some(Steps { starts, targets })
     }
 
+    /// The steps of the states expanded, as far as there are at most so many: rows of the first states, whole ones. Nothing
+    /// unless states were kept, on one thread, so that those expanded are the first.
+    pub(in crate::explore) fn steps_within(&self, most: usize) -> Option<Steps> {
+        if self.shards.len() != 1 {
+            return None;
+        }
+        let mut steps = self.steps(&AtomicBool::new(false))?;
+        steps.starts.truncate(self.figures.expanded as usize + 1);
+        let fitting = steps.starts.partition_point(|&start| start <= most as u64);
+        steps.starts.truncate(fitting.max(1));
+        steps.targets.truncate(steps.starts[steps.starts.len() - 1] as usize);
+        Some(steps)
+    }
+
     /// Puts the successors of some states into `targets`.
     fn steps_of(&self, numbers: Range<u32>, stretches: &[Stretch], indices: &[Index], targets: &mut [u32]) {
         let machine = &self.machine;

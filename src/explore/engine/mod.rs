@@ -9,6 +9,7 @@
 mod allowed;
 mod behaviour;
 mod candidates;
+mod capacity;
 mod conditions;
 mod cover;
 mod exploration;
@@ -28,6 +29,7 @@ mod rows;
 mod scramble;
 mod search;
 mod shard;
+mod states;
 mod stubborn;
 mod swaps;
 mod tally;
@@ -35,6 +37,7 @@ mod trace;
 mod view;
 
 pub use behaviour::Behaviour;
+pub(super) use capacity::explore_safely;
 pub use exploration::{Exploration, Figures};
 pub use graph::Steps;
 pub use model::{Arcs, Model};

@@ -56,7 +56,10 @@ pub fn explore(
     wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
 ) -> Exploration {
     match model.rules() {
-        Ok(rules) => run(model, &rules, options, watch, wanted, None),
+        Ok(rules) => {
+            let bounds = Bounds::of(&model.initial, &rules);
+            explore_within(model, &rules, &bounds, options, watch, wanted, None)
+        }
         Err(reason) => Exploration::refused(reason),
     }
 }
@@ -74,22 +77,23 @@ pub fn explore_towards(
         Ok(rules) => rules,
         Err(reason) => return Exploration::refused(reason),
     };
-    let stubborn = Stubborn::of(goal, &rules, model.initial.len());
-    run(model, &rules, options, watch, Some(&|view| goal.holds(view)), Some(&stubborn))
+    let (stubborn, bounds) = (Stubborn::of(goal, &rules, model.initial.len()), Bounds::of(&model.initial, &rules));
+    explore_within(model, &rules, &bounds, options, watch, Some(&|view| goal.holds(view)), Some(&stubborn))
 }
 
-fn run(
+/// As [`explore`], where the rules and bounds of the model are known; towards a goal, if there are stubborn sets for one.
+pub(super) fn explore_within(
     model: &Model,
     rules: &[Rule],
+    bounds: &Bounds,
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
     wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
     stubborn: Option<&Stubborn<'_>>,
 ) -> Exploration {
-    let bounds = Bounds::of(&model.initial, rules);
     let mut limits: Vec<u64> = model.initial.iter().map(|&tokens| tokens.max(1)).collect();
     for round in 0.. {
-        let machine = Machine::new(&model.initial, rules, &bounds, &limits);
+        let machine = Machine::new(&model.initial, rules, bounds, &limits);
         let shards = options.threads.max(1);
         let task = Task { machine: &machine, wanted, stubborn, shards, keep: options.keep };
         let mut search = Search::new(task, options.budget);

@@ -1,0 +1,46 @@
+//! The states of an exploration on one thread as packed words, and what can be told of them.
+
+use super::exploration::Exploration;
+use super::view::View;
+
+impl Exploration {
+    /// How many words a state has.
+    pub(in crate::explore) fn words(&self) -> usize {
+        self.machine.packing.words()
+    }
+
+    /// The words of all states, one state after another. The states are kept no longer, the tables are.
+    pub(in crate::explore) fn take_states(&mut self) -> Vec<u64> {
+        let mut arena = Vec::with_capacity(self.figures.states as usize * self.words());
+        self.for_each_state(|_, view| arena.extend_from_slice(view.words));
+        self.shards.clear();
+        arena
+    }
+
+    /// First state of each distance begun.
+    pub(in crate::explore) fn levels(&self) -> Vec<u32> {
+        self.shards.first().map_or_else(Vec::new, |shard| shard.levels.iter().map(|&start| start as u32).collect())
+    }
+
+    /// Shows a state.
+    pub(in crate::explore) fn show<T>(&self, words: &[u64], look: impl FnOnce(&View<'_>) -> T) -> T {
+        let mut enabled = vec![0; self.machine.width];
+        self.machine.enabled.put(words, &mut enabled);
+        look(&View { packing: &self.machine.packing, words, enabled: &enabled })
+    }
+
+    /// How many places the net explored has.
+    pub(in crate::explore) fn places(&self) -> usize {
+        self.machine.packing.places()
+    }
+
+    /// How many tokens a place has in a state.
+    pub(in crate::explore) fn tokens(&self, words: &[u64], place: usize) -> u64 {
+        self.machine.packing.tokens(words, place)
+    }
+
+    /// Fires a transition that a state enables.
+    pub(in crate::explore) fn fire(&self, transition: usize, words: &mut [u64]) {
+        self.machine.fire(transition, words);
+    }
+}

@@ -1,0 +1,128 @@
+//! The transition view: the reachable markings of a safe net, explored by the [engine](super::engine); every firing is a step.
+
+use super::budget::{Budget, Progress, Stop};
+use super::engine::{self, Exploration, explore_safely};
+use super::graph::Graph;
+use super::space::{Failure, Step};
+use crate::net::{Net, PlaceId, TransitionId};
+
+/// The reachable markings of a net: their graph, and what its states mean.
+pub struct Markings<'n> {
+    net: &'n Net,
+    exploration: Exploration,
+    graph: Graph,
+}
+
+/// Bytes set aside for each state while states are found: two words, a row, and five steps.
+const ROW: u64 = 2 * 8 + 12 + 5 * 4;
+
+impl<'n> Markings<'n> {
+    /// Explores a net until everything is found, the budget is used up, or `watch` gives a reason to stop. `watch` is called
+    /// every few hundred markings. A firing that puts a second token on a place fails, and leads nowhere.
+    #[must_use]
+    pub fn explored(net: &'n Net, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Self {
+        // Numbers of states have 32 bits; half of that leaves room for the states at hand.
+        let budget = Budget { states: budget.states.min(u64::from(u32::MAX) >> 1), ..budget };
+        let options = engine::Options { budget, threads: 1, keep: true };
+        let mut full = false;
+        let mut exploration = explore_safely(net, &options, &mut |progress| {
+            let bytes = progress.bytes + progress.states * ROW;
+            full = bytes > budget.bytes;
+            watch(&Progress { bytes, ..*progress }).or_else(|| full.then(String::new))
+        });
+        let mut graph = Graph::empty(exploration.words());
+        let taken = exploration.figures.bytes + exploration.figures.states * (ROW - 5 * 4);
+        let most = (budget.bytes.saturating_sub(taken) / 4) as usize;
+        if let Some(steps) = exploration.steps_within(most) {
+            (graph.starts, graph.targets) = steps.into_parts();
+        }
+        graph.levels = exploration.levels();
+        graph.arena = exploration.take_states();
+        graph.len = exploration.figures.states as usize;
+        graph.initial = (0..graph.len.min(1) as u32).collect();
+        graph.row_of = (0..graph.rows() as u32).collect();
+        graph.stop = match exploration.stop {
+            Stop::Watcher(_) if full => Stop::Bytes(budget.bytes),
+            Stop::Complete if graph.rows() < graph.len => Stop::Bytes(budget.bytes),
+            ref stop => stop.clone(),
+        };
+        let mut markings = Self { net, exploration, graph };
+        markings.graph.failures = markings.failures();
+        markings
+    }
+
+    /// The net.
+    #[must_use]
+    pub fn net(&self) -> &'n Net {
+        self.net
+    }
+
+    /// The graph.
+    #[must_use]
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// Whether a place is marked in a state.
+    #[must_use]
+    pub fn is_marked(&self, state: &[u64], place: PlaceId) -> bool {
+        self.exploration.tokens(state, place.index()) > 0
+    }
+
+    /// Whether a transition is enabled in a state.
+    #[must_use]
+    pub fn is_enabled(&self, state: &[u64], transition: TransitionId) -> bool {
+        self.net.arcs(transition).preset().all(|place| self.is_marked(state, place))
+    }
+
+    /// Whether no transition is enabled in a state.
+    #[must_use]
+    pub fn is_deadlock(&self, state: &[u64]) -> bool {
+        self.exploration.show(state, |view| view.enabled().next().is_none()) && self.failing(state).next().is_none()
+    }
+
+    /// Calls `visit` for each enabled transition with the step it makes.
+    pub fn firings(&self, state: &[u64], visit: &mut dyn FnMut(TransitionId, Step<'_>)) {
+        let mut next = vec![0; state.len()];
+        self.exploration.show(state, |view| {
+            for transition in view.enabled() {
+                next.copy_from_slice(state);
+                self.exploration.fire(transition, &mut next);
+                visit(TransitionId::at(transition), Step::To(&next));
+            }
+        });
+        self.failing(state).for_each(|(id, place)| visit(id, Step::Fails(Failure::NotSafe(place))));
+    }
+
+    /// The transitions that would put a second token, each with the place.
+    fn failing(&self, state: &[u64]) -> impl Iterator<Item = (TransitionId, PlaceId)> {
+        let transitions = if self.is_guarded() { self.net.transitions().len() } else { 0 };
+        (0..transitions).map(TransitionId::at).filter_map(move |id| {
+            let arcs = self.net.arcs(id);
+            let second = |place: &PlaceId| self.is_marked(state, *place) && !arcs.consume.contains(place);
+            let place = arcs.produce.iter().copied().find(second)?;
+            self.is_enabled(state, id).then_some((id, place))
+        })
+    }
+
+    /// Whether there are complements, so that firings can fail.
+    fn is_guarded(&self) -> bool {
+        self.exploration.places() > self.net.places().len()
+    }
+
+    fn failures(&self) -> Vec<(Option<u32>, Failure)> {
+        let mut failures: Vec<(Option<u32>, Failure)> = Vec::new();
+        if self.is_guarded() {
+            for id in 0..self.graph.expanded() as u32 {
+                let first = failures.len();
+                for (_, place) in self.failing(self.graph.state(id)) {
+                    let failure = (Some(id), Failure::NotSafe(place));
+                    if !failures[first..].contains(&failure) {
+                        failures.push(failure);
+                    }
+                }
+            }
+        }
+        failures
+    }
+}
