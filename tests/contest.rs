@@ -59,23 +59,28 @@ impl<'n> Whole<'n> {
 
 /// The answers that the engine gives to all properties at once.
 fn judged(net: &Net, properties: &[mcc::Property], nodes: &Nodes<'_>) -> Vec<String> {
+    let known = replies(net, &questions(properties, nodes), Options { threads: 2, ..Options::default() });
+    known.into_iter().map(|answer| answer.unwrap_or_else(|reason| panic!("{reason}"))).collect()
+}
+
+fn questions(properties: &[mcc::Property], nodes: &Nodes<'_>) -> Vec<Question> {
     let question = |property: &mcc::Property| match &property.query {
         Query::Holds(formula) => Question::Holds(bind_in_net(formula, nodes).unwrap().simplified()),
         Query::Bound(places) => {
             Question::Most(nodes.places(places.iter().map(|place| (place.id.as_str(), place.span))).unwrap())
         }
     };
-    let questions: Vec<Question> = properties.iter().map(question).collect();
-    replies(net, &questions)
+    properties.iter().map(question).collect()
 }
 
-fn replies(net: &Net, questions: &[Question]) -> Vec<String> {
-    let report = judge(net, questions, &Options { threads: 2, ..Options::default() }, &mut |_| None);
+/// What is known, or why it is not.
+fn replies(net: &Net, questions: &[Question], options: Options) -> Vec<Result<String, String>> {
+    let report = judge(net, questions, &options, &mut |_| None);
     let answer = |reply: &Reply| match reply {
-        Reply::Holds(_) => "TRUE".to_owned(),
-        Reply::Violated(_) => "FALSE".to_owned(),
-        Reply::Most(most) => most.to_string(),
-        Reply::Unknown(reason) => panic!("{reason}"),
+        Reply::Holds(_) => Ok("TRUE".to_owned()),
+        Reply::Violated(_) => Ok("FALSE".to_owned()),
+        Reply::Most(most) => Ok(most.to_string()),
+        Reply::Unknown(reason) => Err(reason.clone()),
     };
     report.replies.iter().map(answer).collect()
 }
@@ -352,9 +357,43 @@ fn answers_are_those_of_the_contest() {
             let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
             let line = oracle.lines().find_map(|line| line.strip_prefix(&format!("FORMULA {} ", examination.name())));
             let expected = line.and_then(|line| line.split(' ').next()).unwrap();
-            assert_eq!(replies(&read.net, &[examination.question()]), [expected], "{name}: {examination:?}");
+            let answer = replies(&read.net, &[examination.question()], Options::default());
+            assert_eq!(answer, [Ok(expected.to_owned())], "{name}: {examination:?}");
         }
         checked.push(name.to_owned());
     }
     assert!(all.is_empty() || checked.len() > 10, "{checked:?}");
+}
+
+/// On all of them, with a few states only: there are answers all the same, by walks, the state equation, reductions and stubborn
+/// sets, and they are right.
+#[test]
+fn answers_from_few_states_are_those_of_the_contest() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let (all, mut known, mut asked) = (instances(folder.path()), 0, 0);
+    for instance in &all {
+        let model = source(&instance.join("model.pnml"));
+        let net = pnml::read(&model).unwrap().net;
+        let (places, transitions) = (ids(model.text(), "place"), ids(model.text(), "transition"));
+        let transitions = transitions.iter().map(String::as_str).zip(net.transition_ids());
+        let nodes = Nodes::by_id(places.iter().map(String::as_str).zip(net.place_ids()), transitions);
+        let name = instance.file_name().unwrap().to_str().unwrap();
+        for (file, short) in FILES {
+            let (mut properties, _) = mcc::read(&source(&instance.join(format!("{file}.xml"))));
+            properties.sort_by(|a, b| a.id.cmp(&b.id));
+            let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
+            let expected = oracle.lines().filter_map(|line| line.strip_prefix("FORMULA ")?.split(' ').nth(1));
+            let answers = replies(&net, &questions(&properties, &nodes), limited(300));
+            for ((answer, expected), property) in answers.iter().zip(expected).zip(&properties) {
+                let is_report = answer.as_ref().is_err_and(|reason| reason.contains("please report"));
+                assert!(!is_report, "{name}: {answer:?}");
+                let is_right = answer.as_ref().ok().is_none_or(|answer| answer == expected || expected == "?");
+                assert!(is_right, "{name}: {} is {expected}, not {answer:?}", property.id);
+                known += usize::from(answer.is_ok());
+                asked += 1;
+            }
+        }
+    }
+    // Two thirds of them, though few of those about paths.
+    assert!(known * 3 >= asked * 2, "{known} of {asked}");
 }
