@@ -239,8 +239,7 @@ pub struct Lasso {
 
 /// A path inside a set that goes round a cycle (through a fair state, if fairness is asked for), or to where paths end: a
 /// shortest way there, and a shortest cycle from there.
-#[must_use]
-pub fn lasso(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>, state: u32) -> Option<Lasso> {
+fn lasso(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>, state: u32) -> Option<Lasso> {
     let endings = endings(graph, within, fair);
     let mut states = shortest(graph, state, within, false, |s| endings.contains(s as usize))?;
     let knot = states.last().copied().unwrap_or(state);
@@ -265,8 +264,8 @@ pub fn lasso(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>, st
 /// States that [`near_lasso`] goes through.
 const NEAR: usize = 10_000;
 
-/// As [`lasso`] on all paths, but only if the path is found among the nearest states: one that comes back to a state on the
-/// shortest way to its own end, or ends where no step is left. Every step of the last state must be known.
+/// As [`lasso`] on all paths, in a set whose every state has a step to another one of the set, or none at all: one that comes
+/// back to a state on the shortest way to its own end, if there is one among the nearest states, else any.
 #[must_use]
 pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
     let mut parents: FxHashMap<u32, (u32, usize)> = FxHashMap::from_iter([(state, (state, 0))]);
@@ -296,7 +295,25 @@ pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Las
             }
         }
     }
-    None
+    wandering(graph, within, state)
+}
+
+/// The path that always goes on to the state with the least number, which is seldom far from the initial one.
+fn wandering(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
+    let mut positions: FxHashMap<u32, usize> = FxHashMap::from_iter([(state, 0)]);
+    let mut states = vec![state];
+    loop {
+        let successors = graph.successors(states[states.len() - 1]);
+        if successors.is_empty() {
+            return Some(Lasso { states: states[1..].to_vec(), loop_start: None });
+        }
+        let next = successors.iter().copied().filter(|&next| within.contains(next as usize)).min()?;
+        if let Some(&start) = positions.get(&next) {
+            return Some(Lasso { states: states[1..].to_vec(), loop_start: Some(start) });
+        }
+        positions.insert(next, states.len());
+        states.push(next);
+    }
 }
 
 /// A shortest path inside a set to a state that satisfies `goal`, without its first state. With `leave`, the first state does

@@ -24,7 +24,7 @@ pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
 pub use domain::{DomainText, bind_domain};
-pub use evidence::{Claim, Evidence, Lasso, evidence, lasso, near_lasso, shortest};
+pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
 pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;

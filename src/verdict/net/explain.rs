@@ -7,7 +7,7 @@ use fixedbitset::FixedBitSet;
 use super::paths::Paths;
 use super::replay::Played;
 use super::{Branch, Run};
-use crate::logic::{Dag, Labels, Node, NodeId, Quantifier, lasso, near_lasso, shortest};
+use crate::logic::{Dag, Labels, Node, NodeId, Quantifier, near_lasso, shortest};
 use crate::net::{Tokens, TransitionId};
 use crate::verdict::check::is_existential;
 
@@ -116,7 +116,9 @@ impl Teller<'_> {
     fn go_round(&self, id: NodeId, within: &FixedBitSet, tale: &mut Tale) {
         let knot = tale.states.len() - 1;
         let (graph, state) = (&self.paths.graph, tale.states[knot]);
-        let Some(lasso) = near_lasso(graph, within, state).or_else(|| lasso(graph, within, None, state)) else {
+        let Some(lasso) = near_lasso(graph, within, state) else {
+            // Nothing shows it, and the replay is to say so.
+            tale.is_dead = true;
             return;
         };
         if !self.is_local(id) {
