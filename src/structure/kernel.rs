@@ -42,8 +42,9 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
         let shortest = numbers.iter().copied().min_by_key(length)?;
         let (pivot_sum, pivot) = rows[shortest as usize].take()?;
         let by = at(&pivot, column);
-        let mut update = |changes: &Vector, number: u32, present: bool| {
-            for &(column, _) in changes {
+        // Notes which columns a row changes no longer, and which now.
+        let mut update = |number: u32, before: &Vector, now: &Vector| {
+            for (column, present) in differences(before, now) {
                 order.remove(&key(&changing, column));
                 let these = &mut changing[column as usize];
                 _ = if present { these.insert(number) } else { these.remove(&number) };
@@ -52,7 +53,7 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
                 }
             }
         };
-        update(&pivot, shortest, false);
+        update(shortest, &pivot, &Vec::new());
         for number in numbers.into_iter().filter(|&number| number != shortest) {
             let (sum, changes) = rows[number as usize].take()?;
             let own = at(&changes, column);
@@ -63,13 +64,19 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
             fresh.iter_mut().flatten().for_each(|vector| vector.retain(|&(_, value)| value != 0));
             let [Some(mut fresh_sum), Some(mut fresh)] = fresh else { return None };
             reduce(&mut fresh_sum, &mut fresh)?;
-            update(&changes, number, false);
-            update(&fresh, number, true);
+            update(number, &changes, &fresh);
             rows[number as usize] = Some((fresh_sum, fresh));
         }
         rank += 1;
     }
     Some(Kernel { vectors: rows.into_iter().flatten().map(|(sum, _)| sum).collect(), rank })
+}
+
+/// The columns that are in one of two vectors only, and whether in the second one.
+fn differences(before: &Vector, now: &Vector) -> Vec<(u32, bool)> {
+    let has = |vector: &Vector, column: u32| vector.binary_search_by_key(&column, |&(c, _)| c).is_ok();
+    let gone = before.iter().filter(|&&(column, _)| !has(now, column)).map(|&(column, _)| (column, false));
+    gone.chain(now.iter().filter(|&&(column, _)| !has(before, column)).map(|&(column, _)| (column, true))).collect()
 }
 
 fn at(vector: &Vector, column: u32) -> i128 {

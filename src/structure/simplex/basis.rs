@@ -1,7 +1,9 @@
-//! The inverse of a basis as a product of elementary matrices, each the identity but for one column.
+//! The inverse of a basis: triangular factors, and a product of elementary matrices for the columns replaced since.
+//!
+//! Each column stands for a row: the one it was pivoted in. Rows that have no column of their own have a unit vector.
 
-/// A column that takes the place of a unit vector: its entries, that of the place itself apart.
-struct Eta {
+/// A column of a factor, or one that replaced another: its entry in its own row, and those in other rows.
+struct Column {
     row: usize,
     pivot: f64,
     others: Vec<(u32, f64)>,
@@ -10,16 +12,51 @@ struct Eta {
 /// What of a number is lost in computation.
 const DUST: f64 = 1e-11;
 
-/// The inverse of a matrix that began as the identity and had columns replaced.
+/// The inverse of a matrix that began as the identity and had columns entered, then replaced.
 #[derive(Default)]
 pub struct Inverse {
-    etas: Vec<Eta>,
+    /// In the order of their entering: what each pivot subtracts from rows without one.
+    lower: Vec<Column>,
+    /// In the same order: columns with entries in rows that had a pivot before.
+    upper: Vec<Column>,
+    replaced: Vec<Column>,
     /// Numbers kept.
     size: usize,
 }
 
 impl Inverse {
-    /// Replaces the unit vector in `row` by a column, which has gone through [`Self::times_column`] already.
+    /// A column as it is when it is to be entered, in place. `touched` are the rows where it may not be 0.
+    pub fn reduce(&self, column: &mut [f64], touched: &mut Vec<u32>) {
+        for factor in &self.lower {
+            let value = column[factor.row];
+            if value != 0.0 {
+                for &(i, entry) in &factor.others {
+                    column[i as usize] -= entry * value;
+                    touched.push(i);
+                }
+            }
+        }
+        touched.sort_unstable();
+        touched.dedup();
+    }
+
+    /// Enters a column that has been reduced, with its pivot in `row`; `is_free` are rows without a pivot that shall have one.
+    pub fn enter(&mut self, row: usize, column: &[f64], touched: &[u32], is_free: &[bool]) {
+        let pivot = column[row];
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for (i, value) in touched.iter().map(|&i| (i, column[i as usize])) {
+            if i as usize != row && value.abs() > DUST {
+                if is_free[i as usize] { lower.push((i, value / pivot)) } else { upper.push((i, value)) }
+            }
+        }
+        self.size += lower.len() + upper.len() + 2;
+        if !lower.is_empty() {
+            self.lower.push(Column { row, pivot: 1.0, others: lower });
+        }
+        self.upper.push(Column { row, pivot, others: upper });
+    }
+
+    /// Replaces what stands for a row by a column, which has gone through [`Self::times_column`] already.
     pub fn replace(&mut self, row: usize, column: &[f64]) {
         let others: Vec<(u32, f64)> = column
             .iter()
@@ -28,88 +65,43 @@ impl Inverse {
             .map(|(i, &value)| (i as u32, value))
             .collect();
         self.size += others.len() + 1;
-        self.etas.push(Eta { row, pivot: column[row], others });
+        self.replaced.push(Column { row, pivot: column[row], others });
     }
 
     /// The inverse times a column, in place.
     pub fn times_column(&self, column: &mut [f64]) {
-        for eta in &self.etas {
-            let value = column[eta.row];
+        for factor in &self.lower {
+            let value = column[factor.row];
             if value != 0.0 {
-                let scaled = value / eta.pivot;
-                column[eta.row] = scaled;
-                eta.others.iter().for_each(|&(i, entry)| column[i as usize] -= entry * scaled);
+                factor.others.iter().for_each(|&(i, entry)| column[i as usize] -= entry * value);
+            }
+        }
+        for factor in self.upper.iter().rev().chain(&self.replaced) {
+            let value = column[factor.row];
+            if value != 0.0 {
+                let scaled = value / factor.pivot;
+                column[factor.row] = scaled;
+                factor.others.iter().for_each(|&(i, entry)| column[i as usize] -= entry * scaled);
             }
         }
     }
 
     /// A row times the inverse, in place.
     pub fn times_row(&self, row: &mut [f64]) {
-        for eta in self.etas.iter().rev() {
-            let sum: f64 = eta.others.iter().map(|&(i, entry)| entry * row[i as usize]).sum();
-            let value = (row[eta.row] - sum) / eta.pivot;
-            row[eta.row] = if value.abs() > DUST { value } else { 0.0 };
+        for factor in self.replaced.iter().rev().chain(&self.upper).chain(self.lower.iter().rev()) {
+            let sum: f64 = factor.others.iter().map(|&(i, entry)| entry * row[i as usize]).sum();
+            let value = (row[factor.row] - sum) / factor.pivot;
+            row[factor.row] = if value.abs() > DUST { value } else { 0.0 };
         }
     }
 
-    /// How many columns were replaced.
-    pub fn len(&self) -> usize {
-        self.etas.len()
+    /// How many columns were replaced since the matrix was taken apart.
+    pub fn replaced(&self) -> usize {
+        self.replaced.len()
     }
 
     /// Numbers kept: what a product takes.
     pub fn size(&self) -> usize {
         self.size
     }
-}
-
-/// An order in which columns are best entered: those that a row has alone first, since they change no other; those with one
-/// row left to them last, since then nothing is changed by them. `rows` are those that are free.
-pub fn triangular(columns: &[&[(u32, f64)]], is_free: &[bool]) -> Vec<usize> {
-    let mut rows: Vec<Vec<usize>> = vec![Vec::new(); is_free.len()];
-    let free = |column: usize| columns[column].iter().map(|&(row, _)| row as usize).filter(|&row| is_free[row]);
-    (0..columns.len()).for_each(|column| free(column).for_each(|row| rows[row].push(column)));
-    let mut row_counts: Vec<usize> = rows.iter().map(Vec::len).collect();
-    let mut column_counts: Vec<usize> = (0..columns.len()).map(|column| free(column).count()).collect();
-    let mut row_done: Vec<bool> = is_free.iter().map(|free| !free).collect();
-    let mut column_done = vec![false; columns.len()];
-    let (mut first, mut last) = (Vec::new(), Vec::new());
-    let mut single_rows: Vec<usize> = (0..rows.len()).filter(|&row| row_counts[row] == 1).collect();
-    let mut single_columns: Vec<usize> = (0..columns.len()).filter(|&column| column_counts[column] == 1).collect();
-    loop {
-        let (row, column) = if let Some(row) = single_rows.pop() {
-            if row_done[row] {
-                continue;
-            }
-            let Some(&column) = rows[row].iter().find(|&&column| !column_done[column]) else { continue };
-            first.push(column);
-            (row, column)
-        } else if let Some(column) = single_columns.pop() {
-            if column_done[column] {
-                continue;
-            }
-            let Some(row) = free(column).find(|&row| !row_done[row]) else { continue };
-            last.push(column);
-            (row, column)
-        } else {
-            break;
-        };
-        row_done[row] = true;
-        column_done[column] = true;
-        for row in free(column).filter(|&row| !row_done[row]) {
-            row_counts[row] -= 1;
-            if row_counts[row] == 1 {
-                single_rows.push(row);
-            }
-        }
-        for &column in rows[row].iter().filter(|&&column| !column_done[column]) {
-            column_counts[column] -= 1;
-            if column_counts[column] == 1 {
-                single_columns.push(column);
-            }
-        }
-    }
-    let mut rest: Vec<usize> = (0..columns.len()).filter(|&column| !column_done[column]).collect();
-    rest.sort_by_key(|&column| column_counts[column]);
-    first.into_iter().chain(rest).chain(last.into_iter().rev()).collect()
 }

@@ -7,6 +7,7 @@
 
 mod basis;
 mod choice;
+mod order;
 mod search;
 
 pub use search::minimise;

@@ -1,6 +1,7 @@
 //! The dual simplex algorithm, revised: the inverse of the basis is kept as a product, rows are computed when they are needed.
 
-use super::basis::{Inverse, triangular};
+use super::basis::Inverse;
+use super::order::triangular;
 use super::{Program, Solved, TOLERANCE, choice};
 
 /// Columns replaced before the inverse is made anew.
@@ -12,7 +13,7 @@ pub fn minimise(program: &Program, steps: u64) -> Solved {
     // Once more with a fresh inverse before anything is said, since errors add up.
     let mut fresh = true;
     loop {
-        if search.inverse.len() >= search.entered + REPLACED {
+        if search.inverse.replaced() >= REPLACED {
             search.refactor();
             fresh = true;
         }
@@ -58,8 +59,6 @@ struct Search<'p> {
     heads: Vec<usize>,
     is_basic: Vec<bool>,
     inverse: Inverse,
-    /// Columns replaced when the inverse was made anew.
-    entered: usize,
     /// The value of each row's variable.
     values: Vec<f64>,
     /// The squared length of each row of the inverse, more or less.
@@ -92,7 +91,6 @@ impl<'p> Search<'p> {
             heads: (variables..variables + rows).collect(),
             is_basic,
             inverse: Inverse::default(),
-            entered: 0,
             values: program.least.iter().map(|&least| -least).collect(),
             lengths: vec![1.0; rows],
             reduced: costs.clone(),
@@ -201,26 +199,33 @@ impl<'p> Search<'p> {
         self.inverse = Inverse::default();
         let mut column = vec![0.0; self.heads.len()];
         let mut spent = 0;
-        for variable in order.into_iter().map(|position| entering[position]) {
-            column.fill(0.0);
-            self.columns[variable].iter().for_each(|&(i, entry)| column[i as usize] = entry);
-            self.inverse.times_column(&mut column);
-            spent += 2 * column.len() + self.inverse.len();
-            let free = (0..column.len()).filter(|&row| is_free[row]);
-            let largest = free.max_by(|&a, &b| column[a].abs().total_cmp(&column[b].abs()));
-            match largest.filter(|&row| column[row].abs() > 1e-7) {
+        let mut touched: Vec<u32> = Vec::new();
+        for (variable, row) in order.into_iter().map(|(position, row)| (entering[position], row)) {
+            touched.clear();
+            for &(i, entry) in &self.columns[variable] {
+                column[i as usize] = entry;
+                touched.push(i);
+            }
+            self.inverse.reduce(&mut column, &mut touched);
+            spent += touched.len() + self.inverse.size() / 8;
+            let fitting = row.filter(|&row| is_free[row] && column[row].abs() > 0.01);
+            let row = fitting.or_else(|| {
+                let free = touched.iter().map(|&row| row as usize).filter(|&row| is_free[row]);
+                free.max_by(|&a, &b| column[a].abs().total_cmp(&column[b].abs()))
+            });
+            match row.filter(|&row| column[row].abs() > 1e-7) {
                 Some(row) => {
-                    self.inverse.replace(row, &column);
-                    self.heads[row] = variable;
                     is_free[row] = false;
+                    self.inverse.enter(row, &column, &touched, &is_free);
+                    self.heads[row] = variable;
                 }
                 None => self.is_basic[variable] = false,
             }
+            touched.iter().for_each(|&row| column[row as usize] = 0.0);
         }
         for row in (0..is_free.len()).filter(|&row| is_free[row]) {
             self.is_basic[variables + row] = true;
         }
-        self.entered = self.inverse.len();
         self.lengths = self.heads.iter().map(|&variable| length_of[variable]).collect();
         self.values = self.program.least.iter().map(|&least| -least).collect();
         self.inverse.times_column(&mut self.values);
