@@ -16,8 +16,8 @@ use super::progress::Watcher;
 use super::report::counted;
 use super::{Outcome, SUCCESS, input};
 
-/// Dead transitions named in the text, at most.
-const NAMED: usize = 20;
+/// Nodes named in a line of text, at most.
+pub const NAMED: usize = 20;
 
 /// States explored if nothing else is said. `petril net explore` is for more.
 const STATES: u64 = 2_000_000;

@@ -7,7 +7,7 @@ use petril::structure::{Commoner, Invariants, Siphons, Summary};
 use serde_json::{Map, Value, json};
 
 use super::args::NetInfo;
-use super::net_info::named;
+use super::net_info::{NAMED, named};
 use super::report::counted;
 
 /// A structure and what is to be printed of it.
@@ -49,6 +49,10 @@ impl Structure<'_> {
         let trapped = match &summary.commoner {
             _ if summary.siphons.found.is_empty() => String::new(),
             Commoner::Holds => "; each holds a trap that is marked initially".to_owned(),
+            Commoner::Fails(siphon) if siphon.len() > NAMED => {
+                let first = self.places(&siphon[..NAMED]).join(", ");
+                format!("; {{{first}, …}}, {} places, holds no trap that is marked initially", siphon.len())
+            }
             Commoner::Fails(siphon) => format!("; {} holds no trap that is marked initially", self.set(siphon)),
             Commoner::Unknown => "; each of these holds a trap that is marked initially".to_owned(),
         };
