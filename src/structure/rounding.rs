@@ -37,7 +37,7 @@ pub fn whole(numbers: &[f64]) -> Option<(Vec<i128>, i128)> {
 
 /// The smallest denominator of a fraction near a number, by its continued fraction.
 fn denominator(number: f64) -> Option<i128> {
-    let error = ERROR * number.abs().max(1.0).min(1e3);
+    let error = ERROR * number.abs().clamp(1.0, 1e3);
     let (mut before, mut denominator) = (0_i128, 1_i128);
     let mut rest = number;
     while ((number * denominator as f64).round() / denominator as f64 - number).abs() > error / denominator as f64 {
