@@ -63,11 +63,14 @@ fn reachable(net: &Net) -> (Vec<Marking>, bool) {
     (seen, false)
 }
 
-fn constraint() -> impl Strategy<Value = (Vec<(usize, i64)>, u8, i64)> {
+/// Places with coefficients, a relation by number, a value.
+type Raw = (Vec<(usize, i64)>, u8, i64);
+
+fn constraint() -> impl Strategy<Value = Raw> {
     (prop::collection::vec((0..8_usize, -3..=3_i64), 1..=3), 0..3_u8, -2..=6_i64)
 }
 
-fn constraints(net: &Net, raw: &[(Vec<(usize, i64)>, u8, i64)]) -> Vec<Constraint> {
+fn constraints(net: &Net, raw: &[Raw]) -> Vec<Constraint> {
     let made = raw.iter().map(|(terms, relation, value)| Constraint {
         terms: terms.iter().map(|&(place, times)| (PlaceId::at(place % net.places().len()), times)).collect(),
         relation: [Relation::AtLeast, Relation::AtMost, Relation::Equal][usize::from(*relation)],
@@ -228,9 +231,9 @@ fn check_kernel(matrix: &Matrix, kernel: &petril::structure::Kernel) -> Result<(
         row
     };
     for vector in &kernel.vectors {
-        for column in 0..columns {
-            prop_assert_eq!(vector.iter().map(|&(row, weight)| weight * matrix[row as usize][column]).sum::<i128>(), 0);
-        }
+        let sum =
+            |column: usize| vector.iter().map(|&(row, weight)| weight * matrix[row as usize][column]).sum::<i128>();
+        prop_assert!((0..columns).all(|column| sum(column) == 0));
     }
     prop_assert_eq!(rank(kernel.vectors.iter().map(dense).collect()), kernel.vectors.len());
     Ok(())

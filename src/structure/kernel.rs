@@ -57,7 +57,7 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
         for number in numbers.into_iter().filter(|&number| number != shortest) {
             let (sum, changes) = rows[number as usize].take()?;
             let own = at(&changes, column);
-            let length = sum.len() + changes.len() + pivot_sum.len() + pivot.len();
+            let length = 4 * (sum.len() + changes.len() + pivot_sum.len()) + 40 * pivot.len();
             steps = steps.checked_sub(length as u64)?;
             let combine = |x: i128, y: i128| x.checked_mul(by)?.checked_sub(y.checked_mul(own)?);
             let mut fresh = [(&sum, &pivot_sum), (&changes, &pivot)].map(|(one, other)| merge(one, other, combine));
@@ -74,9 +74,22 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
 
 /// The columns that are in one of two vectors only, and whether in the second one.
 fn differences(before: &Vector, now: &Vector) -> Vec<(u32, bool)> {
-    let has = |vector: &Vector, column: u32| vector.binary_search_by_key(&column, |&(c, _)| c).is_ok();
-    let gone = before.iter().filter(|&&(column, _)| !has(now, column)).map(|&(column, _)| (column, false));
-    gone.chain(now.iter().filter(|&&(column, _)| !has(before, column)).map(|&(column, _)| (column, true))).collect()
+    let (mut before, mut now) = (before.iter().map(|&(c, _)| c).peekable(), now.iter().map(|&(c, _)| c).peekable());
+    let mut differences = Vec::new();
+    loop {
+        match (before.peek().copied(), now.peek().copied()) {
+            (Some(b), Some(n)) if b == n => _ = (before.next(), now.next()),
+            (Some(b), n) if n.is_none_or(|n| b < n) => {
+                differences.push((b, false));
+                before.next();
+            }
+            (_, Some(n)) => {
+                differences.push((n, true));
+                now.next();
+            }
+            _ => return differences,
+        }
+    }
 }
 
 fn at(vector: &Vector, column: u32) -> i128 {

@@ -69,7 +69,7 @@ fn dependence(rows: &Matrix) -> Option<Vec<i128>> {
             .filter(|&(row, _)| row != without)
             .map(|(_, row)| chosen.iter().map(|&column| row[column]).collect())
             .collect();
-        determinant(&left) * if without % 2 == 0 { 1 } else { -1 }
+        determinant(&left) * if without.is_multiple_of(2) { 1 } else { -1 }
     };
     let weights: Vec<i128> = (0..rows.len()).map(minor).collect();
     let common = weights.iter().fold(0, |common, &weight| gcd(common, weight.abs()));
@@ -81,7 +81,7 @@ fn determinant(matrix: &Matrix) -> i128 {
     let Some((first, rest)) = matrix.split_first() else { return 1 };
     let without =
         |column: usize| rest.iter().map(|row| [&row[..column], &row[column + 1..]].concat()).collect::<Matrix>();
-    let sign = |column: usize| if column % 2 == 0 { 1 } else { -1 };
+    let sign = |column: usize| if column.is_multiple_of(2) { 1 } else { -1 };
     (0..first.len()).filter(|&c| first[c] != 0).map(|c| sign(c) * first[c] * determinant(&without(c))).sum()
 }
 
