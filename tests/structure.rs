@@ -457,7 +457,7 @@ fn philosophers_may_starve() {
     assert_eq!(invariants(&net, &summary), ["f0 h0 e0 e2 = 1", "f1 h1 e0 e1 = 1", "f2 h2 e1 e2 = 1"]);
     // All forks and all who eat: empty when each holds one fork.
     let Commoner::Fails(siphon) = &summary.commoner else { panic!("there is a deadlock") };
-    assert_eq!(named(&net, &[siphon.clone()]), ["f0 f1 f2 e0 e1 e2"]);
+    assert_eq!(named(&net, std::slice::from_ref(siphon)), ["f0 f1 f2 e0 e1 e2"]);
     assert!(!summary.excludes_deadlock && summary.is_live.is_none());
 }
 
