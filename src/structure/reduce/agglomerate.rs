@@ -73,11 +73,10 @@ fn chosen(kinds: &[u32], times: u64) -> Vec<Vec<u32>> {
     if times == 0 {
         return vec![Vec::new()];
     }
-    let Some((&first, rest)) = kinds.split_first() else { return Vec::new() };
-    let mut all = chosen(kinds, times - 1);
-    all.iter_mut().for_each(|word| word.insert(0, first));
-    all.extend(chosen(rest, times));
-    all
+    let with = |(position, &kind): (usize, &u32)| {
+        chosen(&kinds[position..], times - 1).into_iter().map(move |rest| [&[kind], &rest[..]].concat())
+    };
+    kinds.iter().enumerate().flat_map(with).collect()
 }
 
 /// Post-agglomeration at a place, if it is possible.

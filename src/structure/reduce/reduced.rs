@@ -72,13 +72,14 @@ impl<'n> Reduced<'n> {
         let ids: Vec<Option<PlaceId>> = original.place_ids().zip(&places).map(add).collect();
         let present = (0..).zip(&transitions).filter(|(_, transition)| !transition.is_gone);
         let numbers: Vec<u32> = present.map(|(id, _)| id).collect();
+        let ends = ends(&log);
         let mut taken: BTreeSet<String> = BTreeSet::new();
         for &number in &numbers {
             let Transition { pre, post, .. } = &transitions[number as usize];
             let row = |row: &[(u32, u64)]| -> Vec<(PlaceId, u64)> {
                 row.iter().filter_map(|&(place, weight)| Some((ids[place as usize]?, weight))).collect()
             };
-            let name = name(original, &log, number, &mut taken);
+            let name = name(original, ends[number as usize], &mut taken);
             builder.weighted(name, &row(pre), &row(post), &[]);
         }
         let mut transition_ids = vec![None; log.originals];
@@ -123,19 +124,24 @@ impl<'n> Reduced<'n> {
     }
 }
 
-/// The name of a transition: that of the first and that of the last of those it stands for, and a number if need be.
-fn name(net: &Net, log: &Log, number: u32, taken: &mut BTreeSet<String>) -> String {
-    let end = |pick: fn(&[u32]) -> Option<&u32>| {
-        let mut at = number;
-        while let Some(word) = log.meaning(at) {
-            at = *pick(word)?;
-        }
-        Some(net.transition(TransitionId::at(at as usize)).name)
-    };
-    let name = match (log.meaning(number), end(<[u32]>::first), end(<[u32]>::last)) {
-        (None, Some(name), _) => name.to_owned(),
-        (_, Some(first), Some(last)) => format!("{first}..{last}"),
-        _ => "always".to_owned(),
+/// For each transition of a log, the first and the last of the originals it stands for, if there are any.
+fn ends(log: &Log) -> Vec<Option<(u32, u32)>> {
+    let mut ends: Vec<Option<(u32, u32)>> = (0..log.originals as u32).map(|id| Some((id, id))).collect();
+    for word in &log.words {
+        let of = |part: Option<&u32>| part.and_then(|&id| ends[id as usize]);
+        let both = of(word.first()).zip(of(word.last()));
+        ends.push(both.map(|((first, _), (_, last))| (first, last)));
+    }
+    ends
+}
+
+/// The name of a transition: its own, or that of the first and that of the last of those it stands for; and a number if need be.
+fn name(net: &Net, ends: Option<(u32, u32)>, taken: &mut BTreeSet<String>) -> String {
+    let original = |id: u32| net.transition(TransitionId::at(id as usize)).name;
+    let name = match ends {
+        Some((first, last)) if first == last => original(first).to_owned(),
+        Some((first, last)) => format!("{}..{}", original(first), original(last)),
+        None => "always".to_owned(),
     };
     let mut unique = name.clone();
     for more in 2.. {
