@@ -86,6 +86,10 @@ fn implied_places_go() {
 fn dominated_transitions_go() {
     let text = "pl a (1)\npl b (1)\ntr t a -> c\ntr u a -> c\ntr v a b?1 -> c\ntr w a b -> c";
     assert_eq!(left(text, Paths, &["a"], &[Rule::Dominated]), "pl a (1); pl b (1); pl c; tr t a -> c; tr w a b -> c");
+    // Neither needs what the other does.
+    let text = "pl a (1)\npl b (1)\npl d (1)\ntr t a b?1 -> c\ntr u a d?1 -> c";
+    let all = left(text, Paths, &["a", "b", "d"], &[Rule::Dominated]);
+    assert!(all.contains("tr t") && all.contains("tr u"), "{all}");
 }
 
 #[test]

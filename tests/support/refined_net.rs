@@ -150,7 +150,7 @@ impl Sketch {
 pub fn refined_net() -> impl Strategy<Value = Net> {
     let moves =
         proptest::collection::vec((0..4_usize, 0..4_usize, proptest::option::of((0..4_usize, 0..4_usize))), 0..=2);
-    let change = (prop_oneof![5 => 0..8_usize, 1 => 8..CHANGES.len()], any::<[u8; 3]>());
+    let change = (prop_oneof![8 => 0..8_usize, 1 => 8..10_usize, 4 => 10..CHANGES.len()], any::<[u8; 3]>());
     let tokens = [1..=1_u64, 0..=1, 0..=1, 0..=2];
     (1..=4_usize, tokens, moves, proptest::collection::vec(change, 0..=8)).prop_map(
         |(places, tokens, moves, changes)| {
