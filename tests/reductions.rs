@@ -262,7 +262,7 @@ fn large_nets_are_reduced_in_time() {
     let nets = [
         large("row", (0..MANY).map(|i| (vec![i], vec![i + 1]))),
         large("ring", (0..=MANY).map(|i| (vec![i], vec![(i + 1) % MANY]))),
-        large("hub", (1..MANY).map(|i| (vec![0, i], vec![0, i + 1])).chain([(vec![0], vec![1])])),
+        large("hub", (1..MANY).map(|i| (vec![0, i], vec![0, i + 1])).chain([(vec![0], vec![0, 1])])),
         large("star", (1..=MANY).flat_map(|i| [(vec![0], vec![i]), (vec![i], vec![0])])),
         large("fan", (2..=MANY).map(|i| (vec![1], vec![i])).chain([(vec![0], vec![1])])),
         large(
