@@ -17,9 +17,12 @@ impl Exploration {
         arena
     }
 
-    /// First state of each distance begun.
+    /// First state of each distance, that of the states found last included.
     pub(in crate::explore) fn levels(&self) -> Vec<u32> {
-        self.shards.first().map_or_else(Vec::new, |shard| shard.levels.iter().map(|&start| start as u32).collect())
+        let Some(shard) = self.shards.first() else { return Vec::new() };
+        let after = shard.level(shard.levels.len());
+        let after = (!after.is_empty()).then_some(after.start);
+        shard.levels.iter().copied().chain(after).map(|start| start as u32).collect()
     }
 
     /// Shows a state.

@@ -14,8 +14,9 @@ use crate::structure::state_equation::Problem;
 const WALKED: usize = 6_000_000;
 const WALKED_FOR_ONE: usize = 1_500_000;
 
-/// Firings of the first walk. Each one is longer than the one before.
+/// Firings of the first walk. Each one is longer than the one before, up to a limit.
 const SHORT: usize = 200;
+const LONG: usize = 1 << 20;
 
 /// Steps between two looks at the clock.
 const PAUSE: usize = 4096;
@@ -114,7 +115,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
                     None => walk.step(),
                 };
             if !goes_on {
-                length += length / 2;
+                length = (length + length / 2).min(LONG);
                 walk.restart();
                 looked += self.model.initial.len();
             }
