@@ -10,7 +10,7 @@ use petril::explore::engine::Options;
 use petril::logic::{Nodes, bind_in_net, parse_formula};
 use petril::net::{Located, PlaceId, TransitionId};
 use petril::source::Source;
-use petril::verdict::{Means, Question, Reply, Run, judge};
+use petril::verdict::{Means, Question, Reply, Run, judge_aloud};
 use serde_json::json;
 
 use super::args::{NetCheck, TraceForm};
@@ -25,24 +25,28 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let net = &located.net;
     let watcher = Watcher::new(&arguments.on.limits)?;
     let options = Options { budget: arguments.on.limits.budget(), threads: threads(&arguments.on.limits), keep: true };
-    let report = judge(net, &questions, &options, &mut |progress| watcher.watch(progress));
+    let mut printed = Ok(SUCCESS);
+    // Whoever ends the work from outside keeps what is known.
+    let mut tell = |number: usize, reply: &Reply, means: &[Means]| {
+        if !arguments.on.json && printed.is_ok() {
+            let answer = Answer { name: &names[number], reply, means, located: &located };
+            printed = watcher.suspend(|| console.print(&answer.text(arguments.trace)));
+        }
+    };
+    let report = judge_aloud(net, &questions, &options, &mut |progress| watcher.watch(progress), &mut tell);
     watcher.finish();
-    let found = report.replies.iter().zip(&report.means);
-    let answers: Vec<Answer<'_>> = names
-        .iter()
-        .zip(found)
-        .map(|(name, (reply, means))| Answer { name, reply, means, located: &located })
-        .collect();
+    printed?;
     if arguments.on.json {
+        let found = report.replies.iter().zip(&report.means);
+        let answer = |(name, (reply, means)): (&String, (&Reply, &Vec<Means>))| {
+            Answer { name, reply, means, located: &located }.json()
+        };
         console.print_json(json!({
             "net": net.name(),
             "states": report.figures.states,
             "stop": report.stop.to_string(),
-            "formulas": answers.iter().map(Answer::json).collect::<Vec<_>>(),
+            "formulas": names.iter().zip(found).map(answer).collect::<Vec<_>>(),
         }))?;
-    } else {
-        let text: String = answers.iter().map(|answer| answer.text(arguments.trace)).collect();
-        console.print(&text)?;
     }
     let any = |test: fn(&Reply) -> bool| report.replies.iter().any(test);
     Ok(match () {

@@ -22,6 +22,9 @@ pub const NAMED: usize = 20;
 /// States explored if nothing else is said. `petril net explore` is for more.
 const STATES: u64 = 2_000_000;
 
+/// Nets of more nodes are explored only if a number of states is given.
+const NODES: usize = 20_000;
+
 pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let on = &arguments.on;
     let (located, _) = input::net(&on.model, console)?;
@@ -29,27 +32,23 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let watcher = Watcher::new(&on.limits)?;
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };
+    // A marking of a large net takes a long time in itself.
+    let nodes = net.places().len() + net.transitions().len();
+    if nodes > NODES && on.limits.max_states.is_none() {
+        watcher.finish();
+        return unexplored(&structure, &net, arguments, console);
+    }
     let options = Options { budget: on.limits.budget_of(STATES), threads: threads(&on.limits), keep: true };
     let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);
     let second = second_token(&net, &exploration);
     let (behaviour, mut facts) = behaviour(&net, &exploration);
     watcher.finish();
     if on.json {
-        let mut document = json!({
-            "net": net.name(),
-            "places": net.places().len(),
-            "transitions": net.transitions().len(),
-            "arcs": net.arc_count(),
-            "read_arcs": net.read_arc_count(),
-            "structure": structure.json(),
-            "complete": exploration.stop == Stop::Complete,
-            "stop": exploration.stop.to_string(),
-            "safe": match &second {
-                Some(_) => json!(false),
-                None if exploration.stop == Stop::Complete => json!(true),
-                None => Value::Null,
-            },
-        });
+        let mut document =
+            document(&net, &structure, exploration.stop == Stop::Complete, &exploration.stop.to_string());
+        if second.is_some() || exploration.stop == Stop::Complete {
+            document["safe"] = json!(second.is_none());
+        }
         if let Some(second) = &second {
             document["second_token"] = json!({ "place": second.place, "firings": second.firings });
         }
@@ -71,6 +70,32 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         console.print(&(text + &structure.lists()))?;
     }
     Ok(if exploration.stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
+}
+
+/// What is said of a net whose markings are not explored.
+fn unexplored(structure: &Structure<'_>, net: &Net, arguments: &NetInfo, console: &Console) -> Outcome {
+    let reason = format!("the net has more than {NODES} nodes; --max-states N explores so many of its markings");
+    if arguments.on.json {
+        console.print_json(document(net, structure, false, &reason))?;
+    } else {
+        let text = format!("{}{}markings     not explored: {reason}\n", size(net), structure.text());
+        console.print(&(text + &structure.lists()))?;
+    }
+    Ok(ExitCode::from(3))
+}
+
+fn document(net: &Net, structure: &Structure<'_>, is_complete: bool, stop: &str) -> Value {
+    json!({
+        "net": net.name(),
+        "places": net.places().len(),
+        "transitions": net.transitions().len(),
+        "arcs": net.arc_count(),
+        "read_arcs": net.read_arc_count(),
+        "structure": structure.json(),
+        "complete": is_complete,
+        "stop": stop,
+        "safe": Value::Null,
+    })
 }
 
 fn size(net: &Net) -> String {

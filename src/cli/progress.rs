@@ -81,6 +81,11 @@ impl Watcher {
         Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
     }
 
+    /// Does something while the figures are off the terminal.
+    pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.bar.suspend(work)
+    }
+
     /// Clears the figures.
     pub fn finish(&self) {
         self.bar.finish_and_clear();

@@ -10,7 +10,7 @@ mod scan_ends;
 mod views;
 
 pub use check::{Options, check};
-pub use net::{Branch, Examination, Means, NetReport, Question, Reply, Run, judge};
+pub use net::{Branch, Examination, Means, NetReport, Question, Reply, Run, judge, judge_aloud};
 pub use remarks::Remark;
 
 use crate::explore::Stop;

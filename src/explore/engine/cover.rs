@@ -4,7 +4,8 @@
 //! log2 k bits instead of k. The sets are chosen greedily, the one that saves most first. Every other place has a digit of
 //! its own, which counts its tokens.
 
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
+use std::collections::{BTreeSet, BinaryHeap};
 
 use super::invariants::{Invariant, Wanted, invariants};
 use super::model::{Rule, Touch};
@@ -36,6 +37,30 @@ pub(super) enum Rest {
     /// and otherwise on the first place. None of these is itself the first place of such a digit.
     Elsewhere(Vec<usize>),
 }
+
+/// How many bits a set of places saves.
+#[derive(Clone, Copy, Debug)]
+struct Saving(f64);
+
+impl Ord for Saving {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Saving {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Saving {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Saving {}
 
 /// What invariants say about a net.
 pub(super) struct Bounds {
@@ -77,8 +102,8 @@ impl Bounds {
     /// Digits for all places. Places without a bound are counted up to `limits`.
     pub(super) fn digits(&self, limits: &[u64]) -> Vec<Digit> {
         let mut digits = Vec::new();
-        let mut left: BTreeSet<usize> = (0..self.initial.len()).collect();
-        left.retain(|&place| self.changes[place] && self.bounds[place] != Some(0));
+        let mut left: Vec<bool> =
+            (0..self.initial.len()).map(|place| self.changes[place] && self.bounds[place] != Some(0)).collect();
         let counted = |place: usize| {
             let initial = self.initial[place];
             let (base, top, proven) = match self.bounds[place] {
@@ -88,31 +113,41 @@ impl Bounds {
             };
             Digit { radix: top - base + 1, content: Content::Count { place, base, proven } }
         };
-        let mut sets: Vec<&Vec<usize>> = self.one_token.iter().collect();
-        let mut firsts = BTreeSet::new();
-        loop {
-            let saving = |set: &[usize]| {
-                let part = set.iter().filter(|place| left.contains(place)).count();
-                let own = set.iter().any(|place| firsts.contains(place));
-                part as f64 - ((part + usize::from(own)).max(1) as f64).log2()
-            };
-            sets.retain(|set| saving(set) > 0.0);
-            let Some(best) = sets.iter().max_by(|a, b| saving(a).total_cmp(&saving(b))) else { break };
-            let (places, others): (Vec<usize>, Vec<usize>) = best.iter().partition(|place| left.contains(place));
-            places.iter().for_each(|place| _ = left.remove(place));
+        let mut firsts = vec![false; self.initial.len()];
+        let saving = |set: &[usize], left: &[bool], firsts: &[bool]| {
+            let part = set.iter().filter(|&&place| left[place]).count();
+            let own = set.iter().any(|&place| firsts[place]);
+            Saving(part as f64 - ((part + usize::from(own)).max(1) as f64).log2())
+        };
+        // What a set saves only shrinks, so what was found before is never too little.
+        let sets = self.one_token.iter().enumerate();
+        let mut waiting: BinaryHeap<(Saving, usize)> =
+            sets.map(|(number, set)| (saving(set, &left, &firsts), number)).collect();
+        while let Some((_, number)) = waiting.pop() {
+            let set = &self.one_token[number];
+            let now = (saving(set, &left, &firsts), number);
+            if now.0 <= Saving(0.0) {
+                continue;
+            }
+            if waiting.peek().is_some_and(|next| *next > now) {
+                waiting.push(now);
+                continue;
+            }
+            let (places, others): (Vec<usize>, Vec<usize>) = set.iter().partition(|&&place| left[place]);
+            places.iter().for_each(|&place| left[place] = false);
             let rest = if others.is_empty() {
                 Rest::Never
-            } else if others.iter().any(|place| firsts.contains(place)) {
+            } else if others.iter().any(|&place| firsts[place]) {
                 Rest::Zero
             } else {
-                firsts.insert(places[0]);
+                firsts[places[0]] = true;
                 Rest::Elsewhere(others)
             };
             let radix = (places.len() + usize::from(rest == Rest::Zero)) as u64;
             digits.push(Digit { radix, content: Content::OneOf { places, rest } });
         }
         let rest = (0..self.initial.len())
-            .filter(|place| left.contains(place) || !self.changes[*place] || self.bounds[*place] == Some(0));
+            .filter(|place| left[*place] || !self.changes[*place] || self.bounds[*place] == Some(0));
         let shared: BTreeSet<usize> = digits.iter().flat_map(|digit| digit.content.places()).copied().collect();
         digits.extend(rest.filter(|place| !shared.contains(place)).map(counted));
         digits

@@ -9,6 +9,7 @@ mod equation;
 mod examination;
 mod explain;
 mod hunt;
+mod ledger;
 mod live;
 mod means;
 mod paths;
@@ -20,6 +21,7 @@ mod watched;
 
 pub use self::examination::Examination;
 use self::hunt::{Hunt, search};
+use self::ledger::Ledger;
 pub use self::means::Means;
 use self::paths::Paths;
 use self::split::Split;
@@ -112,57 +114,48 @@ pub fn judge(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> NetReport {
+    judge_aloud(net, questions, options, watch, &mut |_, _, _| {})
+}
+
+/// As [`judge`]; `tell` is called with each answer as soon as it is known, and with the number of the question.
+#[must_use]
+pub fn judge_aloud(
+    net: &Net,
+    questions: &[Question],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    tell: &mut dyn FnMut(usize, &Reply, &[Means]),
+) -> NetReport {
     let mut hunts = Vec::new();
     let splits: Vec<Split<'_>> = questions.iter().map(|question| Split::of(question, net, &mut hunts)).collect();
-    let mut replies: Vec<Option<Reply>> = vec![None; hunts.len()];
-    let mut means = vec![Means::Exploration; hunts.len()];
+    let mut ledger = Ledger::new(splits, hunts.len(), tell);
     let mut thinker = None;
     let mut states = FIRST.min(options.budget.states);
     loop {
-        let open = open(&splits, &replies);
+        let open = ledger.open();
         let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| &hunts[at]).collect();
         let budget = Budget { states, ..options.budget };
         let exploration = search(net, &wanted, &Options { budget, ..*options }, watch);
         let (found, mut reason) = answers(net, &wanted, &exploration, &budget, watch);
-        open.iter().zip(found).for_each(|(&at, reply)| replies[at] = reply);
+        for (at, reply) in open.into_iter().zip(found) {
+            reply.into_iter().for_each(|reply| ledger.put(at, reply, Means::Exploration));
+        }
         let is_partial = exploration.stop == Stop::States(states);
-        let open = self::open(&splits, &replies);
+        let open = ledger.open();
         if reason.is_none() && is_partial && !open.is_empty() {
             let thinker = thinker.get_or_insert_with(|| Thinker::new(net, &hunts));
-            let found;
-            (found, reason) = thinker.round(&open, states, options, watch);
-            for (at, reply, by) in found {
-                (replies[at], means[at]) = (Some(reply), by);
-            }
+            // A state takes longer there, and each goal has states of its own.
+            let each = if states == options.budget.states { states } else { states / GROWTH };
+            reason = thinker.round(&open, each, options, watch, &mut |at, reply, by| ledger.put(at, reply, by));
         }
         let is_last = !is_partial || states == options.budget.states;
-        if reason.is_some() || is_last || self::open(&splits, &replies).is_empty() {
+        if reason.is_some() || is_last || ledger.open().is_empty() {
             let reason = reason.unwrap_or_else(|| exploration.stop.to_string());
-            let reply = |split: &Split<'_>| {
-                let unknown = || Reply::Unknown(split.reason(&replies).unwrap_or(&reason).to_owned());
-                split.reply(&replies).unwrap_or_else(unknown)
-            };
-            return NetReport {
-                replies: splits.iter().map(reply).collect(),
-                means: splits.iter().map(|split| split.means(&replies, &means)).collect(),
-                figures: exploration.figures,
-                stop: exploration.stop,
-            };
+            let (replies, means) = ledger.close(&reason);
+            return NetReport { replies, means, figures: exploration.figures, stop: exploration.stop };
         }
         states = states.saturating_mul(GROWTH).min(options.budget.states);
     }
-}
-
-/// The parts without a reply that an answer still depends on, ascending.
-fn open(splits: &[Split<'_>], replies: &[Option<Reply>]) -> Vec<usize> {
-    let mut open = Vec::new();
-    for split in splits.iter().filter(|split| split.reply(replies).is_none()) {
-        split.for_each_part(&mut |part| open.push(part));
-    }
-    open.retain(|&part| replies[part].is_none());
-    open.sort_unstable();
-    open.dedup();
-    open
 }
 
 /// What an exploration answers; and why it was stopped while it did, if it was.

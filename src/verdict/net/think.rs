@@ -40,13 +40,18 @@ struct Case<'n, 'h> {
     aim: Goal,
     target: Option<Target<'n>>,
     reply: Option<(Reply, Means)>,
+    is_noted: bool,
 }
+
+/// Called with a reply and the number of its hunt.
+type Note<'n> = &'n mut (dyn FnMut(usize, Reply, Means) + 'n);
 
 impl<'n, 'h> Thinker<'n, 'h> {
     /// Takes up the hunts that have a goal.
     pub(super) fn new(net: &'n Net, hunts: &'h [Hunt<'h>]) -> Self {
-        let case =
-            |(at, hunt): (usize, &'h Hunt<'h>)| Some(Case { hunt, at, aim: hunt.aim()?, target: None, reply: None });
+        let case = |(at, hunt): (usize, &'h Hunt<'h>)| {
+            Some(Case { hunt, at, aim: hunt.aim()?, target: None, reply: None, is_noted: false })
+        };
         Self {
             net,
             model: Model::from(net),
@@ -56,14 +61,15 @@ impl<'n, 'h> Thinker<'n, 'h> {
     }
 
     /// Looks for replies to those of the hunts that are open, with up to so many states for each goal, until `watch` gives a
-    /// reason to stop. Returns those found, and the reason.
+    /// reason to stop, which is returned.
     pub(super) fn round(
         &mut self,
         open: &[usize],
         states: u64,
         options: &Options,
         watch: Watch<'_>,
-    ) -> (Vec<(usize, Reply, Means)>, Option<String>) {
+        note: Note<'_>,
+    ) -> Option<String> {
         self.cases.retain(|case| open.binary_search(&case.at).is_ok());
         for case in &mut self.cases {
             // The search may have raised it.
@@ -71,31 +77,33 @@ impl<'n, 'h> Thinker<'n, 'h> {
                 case.aim = aim;
             }
         }
-        let reason = self.work(states, options, watch).err();
-        let (done, open): (Vec<_>, Vec<_>) = self.cases.drain(..).partition(|case| case.reply.is_some());
-        self.cases = open;
-        let done = done.into_iter().filter_map(|Case { at, reply, .. }| reply.map(|(reply, by)| (at, reply, by)));
-        (done.collect(), reason)
+        self.work(states, options, watch, note).err()
     }
 
-    fn work(&mut self, states: u64, options: &Options, watch: Watch<'_>) -> Result<(), String> {
+    fn work(&mut self, states: u64, options: &Options, watch: Watch<'_>, note: Note<'_>) -> Result<(), String> {
         if !std::mem::replace(&mut self.has_begun, true) {
-            self.walk(None, WALKED, watch)?;
+            let walked = self.walk(None, WALKED, watch);
+            self.cases.iter_mut().for_each(|case| case.settle(note));
+            walked?;
             let problem = Problem::new(self.net);
             for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
                 if is_impossible(&problem, self.net, &case.aim, STEPS) {
                     case.reply = case.hunt.absent().map(|reply| (reply, Means::StateEquation));
                 }
+                case.settle(note);
                 look(watch)?;
             }
             for position in 0..self.cases.len() {
-                self.walk(Some(position), WALKED_FOR_ONE, watch)?;
+                let walked = self.walk(Some(position), WALKED_FOR_ONE, watch);
+                self.cases.iter_mut().for_each(|case| case.settle(note));
+                walked?;
             }
         }
         let budget = Budget { states: states.min(options.budget.states), ..options.budget };
         let options = Options { budget, keep: true, ..*options };
         for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
             case.search(self.net, &self.model, &options, watch)?;
+            case.settle(note);
         }
         Ok(())
     }
@@ -147,6 +155,14 @@ impl<'n> Case<'n, '_> {
         self.reply = self.hunt.reached(net, run, by).map(|reply| (reply, by));
         if let (None, Some(aim)) = (&self.reply, self.hunt.aim()) {
             self.aim = aim;
+        }
+    }
+
+    /// Notes the reply, if there is one.
+    fn settle(&mut self, note: Note<'_>) {
+        if let Some((reply, by)) = self.reply.as_ref().filter(|_| !self.is_noted) {
+            note(self.at, reply.clone(), *by);
+            self.is_noted = true;
         }
     }
 
