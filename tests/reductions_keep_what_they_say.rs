@@ -73,8 +73,11 @@ fn sight_reduced(net: &Net, keep: &Keep, reduced: &Reduced<'_>, tokens: &Tokens)
     (keep.places.iter().map(|&place| on(place)).collect(), keep.transitions.iter().map(is_enabled).collect())
 }
 
+/// A net, its markings, and what is seen of them.
+type Watched<'a> = (&'a Net, &'a Reached, &'a dyn Fn(&Tokens) -> Sight);
+
 /// Whether two nets are bisimilar, where one sees so much of each marking, and whether it is dead.
-fn are_bisimilar(nets: [(&Net, &Reached, &dyn Fn(&Tokens) -> Sight); 2]) -> bool {
+fn are_bisimilar(nets: [Watched<'_>; 2]) -> bool {
     let mut states: BTreeMap<(usize, &Tokens), usize> = BTreeMap::new();
     let mut classes: BTreeMap<(Sight, bool), usize> = BTreeMap::new();
     for (which, (net, reached, sight)) in nets.iter().enumerate() {

@@ -264,7 +264,7 @@ fn lasso(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>, state:
 /// States that [`near_lasso`] goes through.
 const NEAR: usize = 10_000;
 
-/// As [`lasso`] on all paths, in a set whose every state has a step to another one of the set, or none at all: one that comes
+/// A lasso on all paths, in a set whose every state has a step to another one of the set, or none at all: one that comes
 /// back to a state on the shortest way to its own end, if there is one among the nearest states, else any.
 #[must_use]
 pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {

@@ -92,7 +92,8 @@ impl<'a> Stubborn<'a> {
     /// Adds transitions of which one fires on every way to a goal that the marking does not have.
     fn seed(&self, goal: &Goal, marking: &View<'_>, scratch: &mut Scratch) {
         match goal {
-            Goal::Truth(_) => {}
+            // Nothing fires in a marking that is not alive.
+            Goal::Truth(_) | Goal::Alive => {}
             Goal::AtLeast { terms, .. } => {
                 let gains = |transition: u32| {
                     let rule = &self.rules[transition as usize];
@@ -120,8 +121,6 @@ impl<'a> Stubborn<'a> {
                     self.add_what_disables(transition, marking, scratch);
                 }
             }
-            // Nothing fires in a marking that does not have this one.
-            Goal::Alive => {}
             Goal::All(parts) => {
                 if let Some(part) = parts.iter().find(|part| !part.holds(marking)) {
                     self.seed(part, marking, scratch);

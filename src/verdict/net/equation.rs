@@ -93,6 +93,6 @@ fn constraint(terms: &[(u32, i64)], least: i128) -> Option<Constraint> {
     if terms.is_empty() {
         return None;
     }
-    let terms = terms.iter().map(|&(place, factor)| (PlaceId::at(place as usize), factor.into())).collect();
+    let terms = terms.iter().map(|&(place, factor)| (PlaceId::at(place as usize), factor)).collect();
     Some(Constraint { terms, relation: Relation::AtLeast, value: least.try_into().ok()? })
 }
