@@ -3,18 +3,17 @@
 //! our own to test here.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::{env, fs};
+mod support;
 
 use petril::exchange::mcc::{self, Query};
-use petril::exchange::{pnml, tina};
+use petril::exchange::tina;
 use petril::explore::engine::{Model, Options};
 use petril::explore::{Budget, Markings, Stop, engine};
 use petril::logic::{Bound, Dag, MarkingValuation, Nodes, Valuation, bind_in_net, label, parse_formula};
 use petril::net::{Net, PlaceId, TransitionId};
 use petril::source::Source;
 use petril::verdict::{Examination, Question, Reply, Run, judge};
+use support::contest::{Instance, instances, source};
 
 /// The markings of a net.
 struct Whole<'n>(Markings<'n>);
@@ -234,9 +233,8 @@ fn answers_are_shown_by_trees() {
 fn state_spaces_are_those_of_the_contest() {
     let folder = tempfile::TempDir::new().unwrap();
     let (all, mut checked) = (instances(folder.path()), 0);
-    for instance in &all {
-        let name = instance.file_name().unwrap().to_str().unwrap();
-        let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-SS.out"))).unwrap();
+    for instance in all.iter().map(|folder| Instance::of(folder)) {
+        let (name, oracle) = (&instance.name, instance.oracle("SS"));
         let known = |what: &str| -> Option<u64> {
             let line = oracle.lines().find_map(|line| line.strip_prefix(&format!("STATE_SPACE {what} ")))?;
             line.split(' ').next()?.parse().ok()
@@ -244,8 +242,8 @@ fn state_spaces_are_those_of_the_contest() {
         if known("STATES").is_none_or(|states| states > 300_000) {
             continue;
         }
-        let net = pnml::read(&source(&instance.join("model.pnml"))).unwrap().net;
-        let exploration = engine::explore(&Model::from(&net), &Options::default(), &mut |_| None, None);
+        let exploration =
+            engine::explore(&Model::from(&instance.located.net), &Options::default(), &mut |_| None, None);
         assert_eq!(exploration.stop, Stop::Complete, "{name}");
         let figures = exploration.figures;
         for (what, found) in [
@@ -259,34 +257,6 @@ fn state_spaces_are_those_of_the_contest() {
         checked += 1;
     }
     assert!(all.is_empty() || checked > 15, "{checked}");
-}
-
-/// The instances of the data, unpacked; empty without data.
-fn instances(folder: &Path) -> Vec<PathBuf> {
-    let archives = env::var_os("PETRIL_DATA").map(|data| Path::new(&data).join("mcc")).filter(|mcc| mcc.exists());
-    let Some(archives) = archives else {
-        eprintln!("there are no archives of the contest: nothing is tested");
-        return Vec::new();
-    };
-    for archive in fs::read_dir(archives).unwrap().map(|entry| entry.unwrap().path()) {
-        let tar = Command::new("tar").arg("xzf").arg(&archive).arg("-C").arg(folder).status();
-        assert!(tar.is_ok_and(|status| status.success()), "{} cannot be unpacked", archive.display());
-    }
-    let mut instances: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    assert!(!instances.is_empty());
-    instances.sort();
-    instances
-}
-
-fn source(path: &Path) -> Source {
-    Source::new(path.to_str().unwrap(), fs::read_to_string(path).unwrap())
-}
-
-/// The ids of the nodes of a kind in a net whose places and transitions stand on one page.
-fn ids(net: &str, kind: &str) -> Vec<String> {
-    let document = roxmltree::Document::parse(net).unwrap();
-    let nodes = document.descendants().filter(|node| node.tag_name().name() == kind);
-    nodes.filter_map(|node| node.attribute("id").map(str::to_owned)).collect()
 }
 
 /// What a file asks, and what the short name of its oracle is.
@@ -325,9 +295,8 @@ fn limited(states: u64) -> Options {
 fn answers_are_those_of_the_contest() {
     let folder = tempfile::TempDir::new().unwrap();
     let (all, mut checked) = (instances(folder.path()), Vec::new());
-    for instance in &all {
-        let model = source(&instance.join("model.pnml"));
-        let read = pnml::read(&model).unwrap();
+    for instance in all.iter().map(|folder| Instance::of(folder)) {
+        let (name, read, nodes) = (&instance.name, &instance.located, instance.nodes());
         let small = |net: &Net| {
             engine::explore(&Model::from(net), &limited(30_000), &mut |_| None, None).stop == Stop::Complete
         };
@@ -336,17 +305,8 @@ fn answers_are_those_of_the_contest() {
         }
         // What has weights, the engine alone explores.
         let markings = if read.not_safe.is_empty() { Whole::of(&read.net, 30_000) } else { None };
-        let (places, transitions) = (ids(model.text(), "place"), ids(model.text(), "transition"));
-        let transitions = transitions.iter().map(String::as_str).zip(read.net.transition_ids());
-        let nodes = Nodes::by_id(places.iter().map(String::as_str).zip(read.net.place_ids()), transitions);
-        let name = instance.file_name().unwrap().to_str().unwrap();
         for (file, short) in FILES {
-            // The answers are in the order of the ids.
-            let (mut properties, _) = mcc::read(&source(&instance.join(format!("{file}.xml"))));
-            properties.sort_by(|a, b| a.id.cmp(&b.id));
-            let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
-            let expected = oracle.lines().filter_map(|line| line.strip_prefix("FORMULA ")?.split(' ').nth(1));
-            let expected: Vec<&str> = expected.collect();
+            let (properties, expected) = (instance.properties(file), instance.answers(short));
             assert_eq!(judged(&read.net, &properties, &nodes), expected, "{name}: {file}");
             if let Some(markings) = &markings {
                 let answers = properties.iter().map(|property| markings.answer(&property.query, &nodes));
@@ -354,13 +314,13 @@ fn answers_are_those_of_the_contest() {
             }
         }
         for (examination, short) in Examination::ALL.into_iter().zip(["RD", "OS", "SM", "QL", "L"]) {
-            let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
+            let oracle = instance.oracle(short);
             let line = oracle.lines().find_map(|line| line.strip_prefix(&format!("FORMULA {} ", examination.name())));
             let expected = line.and_then(|line| line.split(' ').next()).unwrap();
             let answer = replies(&read.net, &[examination.question()], Options::default());
             assert_eq!(answer, [Ok(expected.to_owned())], "{name}: {examination:?}");
         }
-        checked.push(name.to_owned());
+        checked.push(name.clone());
     }
     assert!(all.is_empty() || checked.len() > 10, "{checked:?}");
 }
@@ -371,23 +331,15 @@ fn answers_are_those_of_the_contest() {
 fn answers_from_few_states_are_those_of_the_contest() {
     let folder = tempfile::TempDir::new().unwrap();
     let (all, mut known, mut asked) = (instances(folder.path()), 0, 0);
-    for instance in &all {
-        let model = source(&instance.join("model.pnml"));
-        let net = pnml::read(&model).unwrap().net;
-        let (places, transitions) = (ids(model.text(), "place"), ids(model.text(), "transition"));
-        let transitions = transitions.iter().map(String::as_str).zip(net.transition_ids());
-        let nodes = Nodes::by_id(places.iter().map(String::as_str).zip(net.place_ids()), transitions);
-        let name = instance.file_name().unwrap().to_str().unwrap();
+    for instance in all.iter().map(|folder| Instance::of(folder)) {
+        let (name, net, nodes) = (&instance.name, &instance.located.net, instance.nodes());
         for (file, short) in FILES {
-            let (mut properties, _) = mcc::read(&source(&instance.join(format!("{file}.xml"))));
-            properties.sort_by(|a, b| a.id.cmp(&b.id));
-            let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
-            let expected = oracle.lines().filter_map(|line| line.strip_prefix("FORMULA ")?.split(' ').nth(1));
-            let answers = replies(&net, &questions(&properties, &nodes), limited(300));
+            let (properties, expected) = (instance.properties(file), instance.answers(short));
+            let answers = replies(net, &questions(&properties, &nodes), limited(300));
             for ((answer, expected), property) in answers.iter().zip(expected).zip(&properties) {
                 let is_report = answer.as_ref().is_err_and(|reason| reason.contains("please report"));
                 assert!(!is_report, "{name}: {answer:?}");
-                let is_right = answer.as_ref().ok().is_none_or(|answer| answer == expected || expected == "?");
+                let is_right = answer.as_ref().ok().is_none_or(|answer| *answer == expected || expected == "?");
                 assert!(is_right, "{name}: {} is {expected}, not {answer:?}", property.id);
                 known += usize::from(answer.is_ok());
                 asked += 1;

@@ -3,45 +3,16 @@
 //! archives in `mcc/`; without it nothing is tested.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::{env, fs};
+mod support;
 
-use petril::exchange::mcc::{self, Query};
-use petril::exchange::pnml;
+use petril::exchange::mcc::Query;
 use petril::explore::engine::{Model, Options, View, explore};
 use petril::explore::{Budget, Stop};
-use petril::logic::{Bound, Nodes, Quantifier, Term, Valuation, bind_in_net};
+use petril::logic::{Bound, Quantifier, Term, Valuation, bind_in_net};
 use petril::net::{Net, PlaceId, Tokens, TransitionId};
 use petril::semantics::VarId;
-use petril::source::Source;
 use petril::structure::reduce::{Keep, Property, Reduced, Size, reduce};
-
-/// The instances of the data, unpacked; empty without data.
-fn instances(folder: &Path) -> Vec<PathBuf> {
-    let archives = env::var_os("PETRIL_DATA").map(|data| Path::new(&data).join("mcc")).filter(|mcc| mcc.exists());
-    let Some(archives) = archives else {
-        eprintln!("there are no archives of the contest: nothing is tested");
-        return Vec::new();
-    };
-    for archive in fs::read_dir(archives).unwrap().map(|entry| entry.unwrap().path()) {
-        let tar = Command::new("tar").arg("xzf").arg(&archive).arg("-C").arg(folder).status();
-        assert!(tar.is_ok_and(|status| status.success()), "{} cannot be unpacked", archive.display());
-    }
-    let mut instances: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    instances.sort();
-    instances
-}
-
-fn source(path: &Path) -> Source {
-    Source::new(path.to_str().unwrap(), fs::read_to_string(path).unwrap())
-}
-
-fn ids(net: &str, kind: &str) -> Vec<String> {
-    let document = roxmltree::Document::parse(net).unwrap();
-    let nodes = document.descendants().filter(|node| node.tag_name().name() == kind);
-    nodes.filter_map(|node| node.attribute("id").map(str::to_owned)).collect()
-}
+use support::contest::{Instance, instances};
 
 /// What a formula about one state sees.
 fn seen(formula: &Bound, keep: &mut Keep) {
@@ -156,38 +127,28 @@ fn is_reachable(net: &Net, formula: &Bound, wanted: bool) -> Option<Answer> {
 fn answers_on_reduced_nets_are_those_of_the_contest() {
     let folder = tempfile::TempDir::new().unwrap();
     let (all, mut checked) = (instances(folder.path()), 0);
-    for instance in &all {
-        let model = source(&instance.join("model.pnml"));
-        let net = pnml::read(&model).unwrap().net;
-        let (places, transitions) = (ids(model.text(), "place"), ids(model.text(), "transition"));
-        let transitions = transitions.iter().map(String::as_str).zip(net.transition_ids());
-        let nodes = Nodes::by_id(places.iter().map(String::as_str).zip(net.place_ids()), transitions);
-        let name = instance.file_name().unwrap().to_str().unwrap();
+    for instance in all.iter().map(|folder| Instance::of(folder)) {
+        let (name, net, nodes) = (&instance.name, &instance.located.net, instance.nodes());
         let mut questions: Vec<(String, Bound, bool, String)> = Vec::new();
         for (file, short) in [("ReachabilityCardinality", "RC"), ("ReachabilityFireability", "RF")] {
-            let (mut properties, _) = mcc::read(&source(&instance.join(format!("{file}.xml"))));
-            properties.sort_by(|a, b| a.id.cmp(&b.id));
-            let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-{short}.out"))).unwrap();
-            let expected = oracle.lines().filter_map(|line| line.strip_prefix("FORMULA ")?.split(' ').nth(1));
-            for (property, expected) in properties.iter().zip(expected) {
+            for (property, expected) in instance.properties(file).iter().zip(instance.answers(short)) {
                 let Query::Holds(formula) = &property.query else { continue };
                 match bind_in_net(formula, &nodes).unwrap() {
                     Bound::Until { quantifier: Quantifier::Some, release, .. } => {
-                        questions.push((property.id.clone(), *release, true, expected.to_owned()));
+                        questions.push((property.id.clone(), *release, true, expected));
                     }
                     Bound::Until { hold, .. } => {
-                        questions.push((property.id.clone(), *hold, false, expected.to_owned()));
+                        questions.push((property.id.clone(), *hold, false, expected));
                     }
                     _ => {}
                 }
             }
         }
-        let oracle = fs::read_to_string(instance.join(format!("oracle/{name}-RD.out"))).unwrap_or_default();
-        let expected = oracle.lines().find_map(|line| line.strip_prefix("FORMULA ")?.split(' ').nth(1));
-        questions.extend(expected.map(|expected| ("deadlock".to_owned(), Bound::Deadlock, true, expected.to_owned())));
-        let before = Size::of(&net);
+        let expected = instance.answers("RD").into_iter();
+        questions.extend(expected.map(|expected| ("deadlock".to_owned(), Bound::Deadlock, true, expected)));
+        let before = Size::of(net);
         for (id, formula, wanted, expected) in questions {
-            let Some(answer) = is_reachable(&net, &formula, wanted) else { continue };
+            let Some(answer) = is_reachable(net, &formula, wanted) else { continue };
             assert_eq!(answer.word, expected, "{name}: {id}");
             checked += 1;
             let after = answer.size;

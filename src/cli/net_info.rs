@@ -121,17 +121,7 @@ struct SecondToken<'n> {
 
 /// A nearest marking with several tokens on a place.
 fn second_token<'n>(net: &'n Net, exploration: &Exploration) -> Option<SecondToken<'n>> {
-    if exploration.figures.max_tokens_in_place <= 1 {
-        return None;
-    }
-    let mut nearest: Option<(usize, Vec<u64>)> = None;
-    exploration.for_each_state(|_, view| {
-        if nearest.is_none() {
-            let full = (0..net.places().len()).find(|&place| view.tokens(place) > 1);
-            nearest = full.map(|place| (place, view.marking()));
-        }
-    });
-    let (place, marking) = nearest?;
+    let (place, marking) = exploration.second_token()?;
     let firings = exploration.firings(&marking)?;
     let firings = firings.into_iter().map(|id| net.transition(TransitionId::at(id)).name).collect();
     Some(SecondToken { place: net.place(PlaceId::at(place)).name, firings })

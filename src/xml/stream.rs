@@ -121,6 +121,17 @@ impl<'s> Stream<'s> {
         self.start + self.reader.buffer_position() as usize
     }
 
+    /// The next element in the one at hand, past any text; `None` at its end.
+    pub fn child(&mut self) -> Result<Option<Element<'s>>, Diagnostic> {
+        loop {
+            match self.next()? {
+                Some(Event::Start(element)) => return Ok(Some(element)),
+                Some(Event::Text(_)) => {}
+                Some(Event::End) | None => return Ok(None),
+            }
+        }
+    }
+
     /// The next event; `None` at the end of the document.
     pub fn next(&mut self) -> Result<Option<Event<'s>>, Diagnostic> {
         loop {

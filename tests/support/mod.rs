@@ -4,6 +4,7 @@
 
 pub mod agreement;
 pub mod assembler;
+pub mod contest;
 pub mod document;
 pub mod naive_ctl;
 pub mod naive_nets;

@@ -117,12 +117,7 @@ impl<'s> Contents<'s> {
         let stands_for = if is_reference { required(element, "ref", diagnostics) } else { None };
         let mut name = None;
         let mut marking = None;
-        while let Some(event) = stream.next()? {
-            let label = match event {
-                Event::Start(label) => label,
-                Event::End => break,
-                Event::Text(_) => continue,
-            };
+        while let Some(label) = stream.child()? {
             match label.name {
                 _ if label.namespace != element.namespace => {
                     foreign(stream, &label, (element.name, element.namespace), diagnostics)?;
@@ -162,12 +157,7 @@ impl<'s> Contents<'s> {
         self.other(element, diagnostics);
         let ends = ["source", "target"].map(|end| required(element, end, diagnostics));
         let mut weight = None;
-        while let Some(event) = stream.next()? {
-            let label = match event {
-                Event::Start(label) => label,
-                Event::End => break,
-                Event::Text(_) => continue,
-            };
+        while let Some(label) = stream.child()? {
             match label.name {
                 _ if label.namespace != element.namespace => {
                     foreign(stream, &label, (element.name, element.namespace), diagnostics)?;

@@ -38,6 +38,26 @@ impl Exploration {
         Some(Behaviour { deadlocks: self.figures.deadlocks, dead, live_without_dead })
     }
 
+    /// One of the nearest markings kept in which a place has more than one token, and the place.
+    #[must_use]
+    pub fn second_token(&self) -> Option<(usize, Vec<u64>)> {
+        const BLOCK: usize = 1 << 12;
+        let maxima = self.figures.place_maxima.iter().enumerate();
+        let places: Vec<usize> = maxima.filter(|&(_, &most)| most > 1).map(|(place, _)| place).collect();
+        if places.is_empty() {
+            return None;
+        }
+        let states = self.kept();
+        (0..states).step_by(BLOCK).find_map(|first| {
+            let mut found = None;
+            self.for_states(first as u32..states.min(first + BLOCK) as u32, |_, view| {
+                let crowded = || places.iter().copied().find(|&place| view.tokens(place) > 1);
+                found = found.take().or_else(|| crowded().map(|place| (place, view.marking())));
+            });
+            found
+        })
+    }
+
     /// Whether so many transitions fire in each component that no step leaves.
     fn fires_everywhere(&self, steps: &Steps, transitions: usize, alive: usize) -> bool {
         let mut all = FixedBitSet::with_capacity(steps.states());

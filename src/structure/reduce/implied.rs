@@ -14,7 +14,7 @@ use rustc_hash::FxHasher;
 
 use super::Rule;
 use super::draft::Draft;
-use super::scaled::gcd;
+use crate::structure::sparse::gcd;
 
 /// Places of one proportion that are compared with each other, at most.
 const COMPARED: usize = 64;

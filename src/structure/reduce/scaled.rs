@@ -9,6 +9,7 @@
 
 use super::Rule;
 use super::draft::Draft;
+use crate::structure::sparse::gcd;
 
 pub fn apply(draft: &mut Draft, place: u32) -> bool {
     let around = draft.around(place);
@@ -28,9 +29,4 @@ pub fn apply(draft: &mut Draft, place: u32) -> bool {
     draft.places[place as usize].tokens /= divisor;
     draft.count(Rule::Scaled, 1);
     true
-}
-
-/// The greatest common divisor; of 0 and a number, the number.
-pub fn gcd(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }

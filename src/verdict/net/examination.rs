@@ -1,6 +1,6 @@
 //! Questions about a net as a whole, as the Model Checking Contest asks them.
 
-use super::replay::{Played, last_marking};
+use super::replay::{Played, refuted, way};
 use super::{Branch, Question, Reply, Run};
 use crate::explore::Stop;
 use crate::explore::engine::Exploration;
@@ -115,40 +115,21 @@ pub(super) fn shown_at(
     formulas: Vec<Bound>,
     test: impl Fn(&Played<'_>) -> bool,
 ) -> Reply {
-    let lost = "the way to a marking is lost, which is an error in Petril; please report it";
-    let Some(firings) = exploration.firings(marking) else { return Reply::Unknown(lost.to_owned()) };
-    let at = firings.len();
-    let branches = formulas.into_iter().map(|formula| Branch { at, formula, run: None }).collect();
-    let firings: Vec<TransitionId> = firings.into_iter().map(TransitionId::at).collect();
-    match last_marking(net, &firings) {
-        Ok(last) if test(&Played(net, &last)) => {
+    match way(net, exploration, marking) {
+        Ok((firings, last)) if test(&Played(net, &last)) => {
+            let at = firings.len();
+            let branches = formulas.into_iter().map(|formula| Branch { at, formula, run: None }).collect();
             Reply::Violated(Some(Run { firings, branches, is_shortest: true, ..Run::default() }))
         }
-        Ok(_) => super::replay::refuted("the last marking does not show it"),
-        Err(what) => super::replay::refuted(&what),
+        Ok(_) => refuted("the last marking does not show it"),
+        Err(what) => refuted(&what),
     }
 }
 
 /// One of the nearest markings in which a place has more than one token.
 fn two_tokens(net: &Net, exploration: &Exploration) -> Option<Reply> {
-    const BLOCK: usize = 1 << 12;
-    let maxima = exploration.figures.place_maxima.iter().enumerate();
-    let places: Vec<usize> = maxima.filter(|&(_, &most)| most > 1).map(|(place, _)| place).collect();
-    if places.is_empty() {
-        return None;
-    }
-    let states = exploration.kept();
-    let mut found = None;
-    for first in (0..states).step_by(BLOCK) {
-        exploration.for_states(first as u32..states.min(first + BLOCK) as u32, |_, view| {
-            let crowded = || places.iter().copied().find(|&place| view.tokens(place) > 1);
-            found = found.take().or_else(|| crowded().map(|place| (PlaceId::at(place), view.marking())));
-        });
-        if found.is_some() {
-            break;
-        }
-    }
-    let (place, marking) = found?;
+    let (place, marking) = exploration.second_token()?;
+    let place = PlaceId::at(place);
     let claim = Bound::Compare(Comparison::Greater, Term::Tokens(place), Term::Number(1));
     Some(shown_at(net, exploration, &marking, vec![claim], |played| played.tokens(place) > 1))
 }

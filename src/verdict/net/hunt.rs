@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::aim::aim;
-use super::replay::{Played, last_marking, refuted};
+use super::replay::{Played, last_marking, refuted, way};
 use super::{Examination, Means, Question, Reply, Run};
 use crate::explore;
 use crate::explore::engine::{Exploration, Model, Options, View};
@@ -43,7 +43,7 @@ pub(super) struct Most<'q> {
 
 /// Explores a net, and looks at each state for every hunt, until nothing more is looked for.
 pub(super) fn search(
-    net: &Net,
+    model: &Model,
     hunts: &[&Hunt<'_>],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
@@ -54,7 +54,7 @@ pub(super) fn search(
         may_stop && hunts.iter().all(|hunt| hunt.is_over())
     };
     let options = Options { keep: true, ..*options };
-    explore::engine::explore(&Model::from(net), &options, watch, Some(&wanted))
+    explore::engine::explore(model, &options, watch, Some(&wanted))
 }
 
 impl<'q> Hunt<'q> {
@@ -136,13 +136,10 @@ impl<'q> Hunt<'q> {
     /// What the exploration says, if that is enough.
     pub(super) fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         match self {
-            Self::Goal(goal) => goal.reply(net, exploration),
-            Self::Most(most) => {
-                let tokens = most.tokens.load(Ordering::Relaxed);
-                (exploration.stop == Stop::Complete).then_some(Reply::Most(tokens))
-            }
             Self::Whole(examination) => examination.reply(net, exploration),
-            Self::Paths(_) => None,
+            Self::Goal(goal) if goal.found.get().is_some() => goal.reply(net, exploration),
+            _ if exploration.stop == Stop::Complete => self.absent(),
+            _ => None,
         }
     }
 
@@ -158,27 +155,10 @@ impl Goal<'_> {
         }
     }
 
-    /// What the exploration says, a state found being shown by a run to it.
+    /// The reply that the state found gives, if one was.
     fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
-        match self.found.get() {
-            Some(marking) => Some(self.shown(net, exploration, marking)),
-            None if exploration.stop != Stop::Complete => None,
-            None if self.is_existential => Some(Reply::Violated(None)),
-            None => Some(Reply::Holds(None)),
-        }
-    }
-
-    fn shown(&self, net: &Net, exploration: &Exploration, marking: &[u64]) -> Reply {
-        let Some(firings) = exploration.firings(marking) else {
-            return Reply::Unknown(
-                "the way to a marking is lost, which is an error in Petril; please report it".to_owned(),
-            );
-        };
-        let firings: Vec<TransitionId> = firings.into_iter().map(TransitionId::at).collect();
-        match last_marking(net, &firings) {
-            Ok(last) => self.shown_by(net, firings, &last, true),
-            Err(what) => refuted(&what),
-        }
+        let shown = |(firings, last): (Vec<TransitionId>, Tokens)| self.shown_by(net, firings, &last, true);
+        Some(way(net, exploration, self.found.get()?).map_or_else(|what| refuted(&what), shown))
     }
 
     /// The reply that a run to a marking gives.

@@ -10,6 +10,7 @@ mod examination;
 mod explain;
 mod hunt;
 mod ledger;
+mod linear;
 mod live;
 mod means;
 mod paths;
@@ -27,7 +28,7 @@ use self::paths::Paths;
 use self::split::Split;
 use self::think::Thinker;
 use self::watched::watched;
-use crate::explore::engine::{Exploration, Figures, Options};
+use crate::explore::engine::{Exploration, Figures, Model, Options};
 use crate::explore::{Budget, Progress, Stop};
 use crate::logic::Bound;
 use crate::net::{Net, PlaceId, TransitionId};
@@ -129,13 +130,14 @@ pub fn judge_aloud(
     let mut hunts = Vec::new();
     let splits: Vec<Split<'_>> = questions.iter().map(|question| Split::of(question, net, &mut hunts)).collect();
     let mut ledger = Ledger::new(splits, hunts.len(), tell);
+    let model = Model::from(net);
     let mut thinker = None;
     let mut states = FIRST.min(options.budget.states);
     loop {
         let open = ledger.open();
         let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| &hunts[at]).collect();
         let budget = Budget { states, ..options.budget };
-        let exploration = search(net, &wanted, &Options { budget, ..*options }, watch);
+        let exploration = search(&model, &wanted, &Options { budget, ..*options }, watch);
         let (found, mut reason) = answers(net, &wanted, &exploration, &budget, watch);
         for (at, reply) in open.into_iter().zip(found) {
             reply.into_iter().for_each(|reply| ledger.put(at, reply, Means::Exploration));
@@ -143,7 +145,7 @@ pub fn judge_aloud(
         let is_partial = exploration.stop == Stop::States(states);
         let open = ledger.open();
         if reason.is_none() && is_partial && !open.is_empty() {
-            let thinker = thinker.get_or_insert_with(|| Thinker::new(net, &hunts));
+            let thinker = thinker.get_or_insert_with(|| Thinker::new(net, &model, &hunts));
             // A state takes longer there, and each goal has states of its own.
             let each = if states == options.budget.states { states } else { states / GROWTH };
             reason = thinker.round(&open, each, options, watch, &mut |at, reply, by| ledger.put(at, reply, by));

@@ -1,6 +1,7 @@
 //! Runs replayed by the plain firing rule, which shares nothing with the search.
 
 use super::Reply;
+use crate::explore::engine::Exploration;
 use crate::logic::Valuation;
 use crate::net::{Net, PlaceId, Tokens, TransitionId};
 use crate::semantics::VarId;
@@ -9,6 +10,18 @@ use crate::semantics::VarId;
 pub(super) fn refuted(what: &str) -> Reply {
     let message = "the replay refutes the search, which is an error in Petril; please report it";
     Reply::Unknown(format!("{message}: {what}"))
+}
+
+/// The firings that lead to a marking found, and the marking they lead to by the plain firing rule.
+pub(super) fn way(
+    net: &Net,
+    exploration: &Exploration,
+    marking: &[u64],
+) -> Result<(Vec<TransitionId>, Tokens), String> {
+    let firings = exploration.firings(marking).ok_or("the way to a marking is lost")?;
+    let firings: Vec<TransitionId> = firings.into_iter().map(TransitionId::at).collect();
+    let last = last_marking(net, &firings)?;
+    Ok((firings, last))
 }
 
 /// The last marking of a run, by the plain firing rule.

@@ -8,10 +8,9 @@ use crate::structure::reduce::{Keep, Property, Reduced, reduce};
 
 /// Where a goal is searched for.
 pub(super) struct Target<'n> {
-    pub(super) model: Model,
     net: &'n Net,
     /// Nothing if it is the net itself.
-    reduced: Option<Reduced<'n>>,
+    reduced: Option<(Reduced<'n>, Model)>,
 }
 
 impl<'n> Target<'n> {
@@ -22,12 +21,18 @@ impl<'n> Target<'n> {
             return Self::unreduced(net);
         }
         let reduced = reduce(net, &keep);
-        Self { model: Model::from(&reduced.net), net, reduced: Some(reduced) }
+        let model = Model::from(&reduced.net);
+        Self { net, reduced: Some((reduced, model)) }
     }
 
     /// The net itself.
     pub(super) fn unreduced(net: &'n Net) -> Self {
-        Self { model: Model::from(net), net, reduced: None }
+        Self { net, reduced: None }
+    }
+
+    /// What is searched, where `whole` is the net itself.
+    pub(super) fn model<'a>(&'a self, whole: &'a Model) -> &'a Model {
+        self.reduced.as_ref().map_or(whole, |(_, model)| model)
     }
 
     /// What a search here rests on.
@@ -37,7 +42,7 @@ impl<'n> Target<'n> {
 
     /// The goal as the reduced net has it. Transitions that it lacks are enabled when the places of their presets say so.
     pub(super) fn goal(&self, goal: &Goal) -> Goal {
-        let Some(reduced) = &self.reduced else { return goal.clone() };
+        let Some((reduced, _)) = &self.reduced else { return goal.clone() };
         let place = |place: u32| reduced.place(PlaceId::at(place as usize)).map_or(u32::MAX, |id| id.index() as u32);
         let transition = |id: u32| reduced.transition(TransitionId::at(id as usize)).map(|id| id.index() as u32);
         let needs = |id: u32| self.net.pre(TransitionId::at(id as usize));
@@ -68,7 +73,7 @@ impl<'n> Target<'n> {
 
     /// The firings of the net itself that these stand for; nothing if they are too many.
     pub(super) fn lifted(&self, firings: &[usize]) -> Option<Vec<u32>> {
-        let Some(reduced) = &self.reduced else { return Some(firings.iter().map(|&id| id as u32).collect()) };
+        let Some((reduced, _)) = &self.reduced else { return Some(firings.iter().map(|&id| id as u32).collect()) };
         let firings: Vec<TransitionId> = firings.iter().map(|&id| TransitionId::at(id)).collect();
         let lifted = reduced.lift(&firings).ok()?;
         Some(lifted.into_iter().map(|id| id.index() as u32).collect())

@@ -27,7 +27,7 @@ const STEPS: u64 = 20_000_000;
 /// Goals that the first look at the states has left open.
 pub(super) struct Thinker<'n, 'h> {
     net: &'n Net,
-    model: Model,
+    model: &'n Model,
     cases: Vec<Case<'n, 'h>>,
     has_begun: bool,
 }
@@ -39,8 +39,7 @@ struct Case<'n, 'h> {
     at: usize,
     aim: Goal,
     target: Option<Target<'n>>,
-    reply: Option<(Reply, Means)>,
-    is_noted: bool,
+    is_open: bool,
 }
 
 /// Called with a reply and the number of its hunt.
@@ -48,16 +47,10 @@ type Note<'n> = &'n mut (dyn FnMut(usize, Reply, Means) + 'n);
 
 impl<'n, 'h> Thinker<'n, 'h> {
     /// Takes up the hunts that have a goal.
-    pub(super) fn new(net: &'n Net, hunts: &'h [Hunt<'h>]) -> Self {
-        let case = |(at, hunt): (usize, &'h Hunt<'h>)| {
-            Some(Case { hunt, at, aim: hunt.aim()?, target: None, reply: None, is_noted: false })
-        };
-        Self {
-            net,
-            model: Model::from(net),
-            cases: hunts.iter().enumerate().filter_map(case).collect(),
-            has_begun: false,
-        }
+    pub(super) fn new(net: &'n Net, model: &'n Model, hunts: &'h [Hunt<'h>]) -> Self {
+        let case =
+            |(at, hunt): (usize, &'h Hunt<'h>)| Some(Case { hunt, at, aim: hunt.aim()?, target: None, is_open: true });
+        Self { net, model, cases: hunts.iter().enumerate().filter_map(case).collect(), has_begun: false }
     }
 
     /// Looks for replies to those of the hunts that are open, with up to so many states for each goal, until `watch` gives a
@@ -82,39 +75,39 @@ impl<'n, 'h> Thinker<'n, 'h> {
 
     fn work(&mut self, states: u64, options: &Options, watch: Watch<'_>, note: Note<'_>) -> Result<(), String> {
         if !std::mem::replace(&mut self.has_begun, true) {
-            let walked = self.walk(None, WALKED, watch);
-            self.cases.iter_mut().for_each(|case| case.settle(note));
-            walked?;
+            self.walk(None, WALKED, watch, note)?;
             let problem = Problem::new(self.net);
-            for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
+            for case in self.cases.iter_mut().filter(|case| case.is_open) {
                 if is_impossible(&problem, self.net, &case.aim, STEPS) {
-                    case.reply = case.hunt.absent().map(|reply| (reply, Means::StateEquation));
+                    case.settle(case.hunt.absent(), Means::StateEquation, note);
                 }
-                case.settle(note);
                 look(watch)?;
             }
             for position in 0..self.cases.len() {
-                let walked = self.walk(Some(position), WALKED_FOR_ONE, watch);
-                self.cases.iter_mut().for_each(|case| case.settle(note));
-                walked?;
+                self.walk(Some(position), WALKED_FOR_ONE, watch, note)?;
             }
         }
         let budget = Budget { states: states.min(options.budget.states), ..options.budget };
         let options = Options { budget, keep: true, ..*options };
-        for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
-            case.search(self.net, &self.model, &options, watch)?;
-            case.settle(note);
+        for case in &mut self.cases {
+            case.search(self.net, self.model, &options, watch, note)?;
         }
         Ok(())
     }
 
     /// Walks until so many atoms were looked at: anywhere, or towards one of the goals.
-    fn walk(&mut self, towards: Option<usize>, atoms: usize, watch: Watch<'_>) -> Result<(), String> {
-        if towards.is_some_and(|position| self.cases[position].reply.is_some()) {
+    fn walk(&mut self, towards: Option<usize>, atoms: usize, watch: Watch<'_>, note: Note<'_>) -> Result<(), String> {
+        let is_over = |cases: &[Case<'_, '_>]| match towards {
+            Some(position) => !cases[position].is_open,
+            None => cases.iter().all(|case| !case.is_open),
+        };
+        if is_over(&self.cases) {
             return Ok(());
         }
         let seed = towards.map_or(1, |position| position as u64 + 2);
-        let Some(mut walk) = Walk::new(&self.model, seed) else { return Ok(()) };
+        let Some(mut walk) = Walk::new(self.model, seed) else { return Ok(()) };
+        // Raising a goal leaves it as long as it was.
+        let sizes: Vec<usize> = self.cases.iter().map(|case| size(&case.aim)).collect();
         let (mut looked, mut steps, mut length) = (0, 0, SHORT);
         while looked < atoms {
             let goes_on = walk.firings().len() < length
@@ -127,15 +120,13 @@ impl<'n, 'h> Thinker<'n, 'h> {
                 walk.restart();
                 looked += self.model.initial.len();
             }
-            let mut open = 0;
-            for case in self.cases.iter_mut().filter(|case| case.reply.is_none()) {
-                looked += 1 + size(&case.aim);
-                open += 1;
+            for (case, size) in self.cases.iter_mut().zip(&sizes).filter(|(case, _)| case.is_open) {
+                looked += 1 + size;
                 if case.aim.holds(&walk) {
-                    case.found(self.net, &without_loops(&self.model, walk.firings()), Means::Walk);
+                    case.found(self.net, &without_loops(self.model, walk.firings()), Means::Walk, note);
                 }
             }
-            if open == 0 || towards.is_some_and(|position| self.cases[position].reply.is_some()) {
+            if is_over(&self.cases) {
                 return Ok(());
             }
             looked += 1;
@@ -150,43 +141,47 @@ impl<'n, 'h> Thinker<'n, 'h> {
 
 impl<'n> Case<'n, '_> {
     /// The net reaches the goal by these firings. A goal that can be raised is raised.
-    fn found(&mut self, net: &'n Net, firings: &[u32], by: Means) {
+    fn found(&mut self, net: &Net, firings: &[u32], by: Means, note: Note<'_>) {
         let run = firings.iter().map(|&transition| TransitionId::at(transition as usize)).collect();
-        self.reply = self.hunt.reached(net, run, by).map(|reply| (reply, by));
-        if let (None, Some(aim)) = (&self.reply, self.hunt.aim()) {
+        self.settle(self.hunt.reached(net, run, by), by, note);
+        if let Some(aim) = self.hunt.aim().filter(|_| self.is_open) {
             self.aim = aim;
         }
     }
 
-    /// Notes the reply, if there is one.
-    fn settle(&mut self, note: Note<'_>) {
-        if let Some((reply, by)) = self.reply.as_ref().filter(|_| !self.is_noted) {
-            note(self.at, reply.clone(), *by);
-            self.is_noted = true;
+    /// Notes a reply, if there is one.
+    fn settle(&mut self, reply: Option<Reply>, by: Means, note: Note<'_>) {
+        if let Some(reply) = reply {
+            note(self.at, reply, by);
+            self.is_open = false;
         }
     }
 
     /// Searches the net reduced for the goal.
-    fn search(&mut self, net: &'n Net, model: &Model, options: &Options, watch: Watch<'_>) -> Result<(), String> {
-        while self.reply.is_none() {
+    fn search(
+        &mut self,
+        net: &'n Net,
+        model: &Model,
+        options: &Options,
+        watch: Watch<'_>,
+        note: Note<'_>,
+    ) -> Result<(), String> {
+        while self.is_open {
             let target = self.target.get_or_insert_with(|| Target::of(net, &self.aim));
-            let (goal, by) = (target.goal(&self.aim), target.means());
-            let mut reason = None;
-            let mut watch = |progress: &Progress| {
-                reason = watch(progress);
-                reason.clone()
-            };
-            let exploration = explore_towards(&target.model, options, &mut watch, &goal);
+            let by = target.means();
+            let exploration = explore_towards(target.model(model), options, watch, &target.goal(&self.aim));
             if let Some(found) = &exploration.found {
                 let firings = exploration.firings(found).ok_or("the way to a marking is lost, which is an error")?;
                 match target.lifted(&firings) {
-                    Some(firings) => self.found(net, &without_loops(model, &firings), by),
+                    Some(firings) => self.found(net, &without_loops(model, &firings), by, note),
                     None => self.target = Some(Target::unreduced(net)),
                 }
-            } else if exploration.stop == Stop::Complete {
-                self.reply = self.hunt.absent().map(|reply| (reply, by));
-            } else {
-                return reason.map_or(Ok(()), Err);
+                continue;
+            }
+            match exploration.stop {
+                Stop::Complete => self.settle(self.hunt.absent(), by, note),
+                Stop::Watcher(reason) => return Err(reason),
+                _ => return Ok(()),
             }
         }
         Ok(())
