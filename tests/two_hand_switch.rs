@@ -172,7 +172,7 @@ fn nine_requirements_hold_and_one_does_not() {
     assert_eq!(values(&system, trace, &names), ["01101000", "11000101"]);
     assert_eq!(moves(&system, trace), [["hands.press2"], ["hands.press1"]]);
     assert_eq!(trace.loop_start, None);
-    let petril::verdict::Outcome::Violated(witness) = &answer(&report, "synchronous").outcome else { panic!() };
+    let petril::verdict::Outcome::Violated(witness, _) = &answer(&report, "synchronous").outcome else { panic!() };
     let notes: Vec<_> = witness.notes.iter().map(|note| (note.first, note.last, note.text.as_str())).collect();
     assert_eq!(notes, [(0, 0, "`S1 & !S2 | !S1 & S2` is true"), (1, 1, "`Output` is true")]);
 }

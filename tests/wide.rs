@@ -248,7 +248,7 @@ fn an_error_is_told_in_its_line() {
     let told: Vec<&str> = rows.iter().map(|row| row[1]).collect();
     assert_eq!(rows.len(), 3);
     assert_eq!(told, ["255", "0 overflow", "0 c = 0"]);
-    let Outcome::Violated(witness) = &report.checks[1].outcome else { panic!("{:?}", report.checks[1]) };
+    let Outcome::Violated(witness, _) = &report.checks[1].outcome else { panic!("{:?}", report.checks[1]) };
     assert_eq!(witness.notes[0].text, "a number did not fit its type in line 2 (`ADD 1`)");
 }
 

@@ -149,7 +149,7 @@ impl Text<'_> {
                 out += &format!("    shown by a run of {} (--witnesses prints it)\n", counted(length, unit));
             }
             Outcome::Holds { .. } => {}
-            Outcome::Violated(witness) => out += &self.witness(witness, report),
+            Outcome::Violated(witness, _) => out += &self.witness(witness, report),
         }
         out
     }

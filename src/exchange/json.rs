@@ -92,7 +92,7 @@ fn answer(system: &System, answer: &Answer, view: View) -> Value {
             Some(format!("vacuous: `{premise}` is true in no reachable state"))
         }
         Outcome::Holds { .. } => None,
-        Outcome::Violated(witness) => {
+        Outcome::Violated(witness, _) => {
             Some(witness.notes.iter().map(|note| note.sentence(view)).collect::<Vec<_>>().join("; "))
         }
     };

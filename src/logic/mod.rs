@@ -28,7 +28,7 @@ pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
 pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;
-pub use parse::{Requirement, RequirementFile, parse_domain, parse_formula, parse_requirements};
+pub use parse::{Origin, Requirement, RequirementFile, Tag, parse_domain, parse_formula, parse_requirements};
 pub use representatives::representatives;
 pub use vacuity::vacuous_premise;
 pub use valuations::{MarkingValuation, ScanValuation};

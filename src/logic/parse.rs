@@ -30,14 +30,49 @@ const MAX_PARTS: usize = 1000;
 pub struct Requirement {
     /// Its name, unique among those checked together.
     pub name: String,
-    /// What it says in words.
+    /// What it says in the words of its author.
     pub sentence: Option<String>,
+    /// What it says in the words of its pattern, if it is one.
+    pub words: Option<String>,
+    /// What else its author says of it: `safety: SF1`, `severity: high`.
+    pub tags: Vec<Tag>,
     /// The formula.
     pub formula: Formula,
     /// The formula as it was written, on one line.
     pub text: String,
     /// Where its name stands, or the formula if it has none.
     pub span: Span,
+    /// The same for people.
+    pub origin: Origin,
+}
+
+/// A word about a requirement, with a value or without: `severity: high`, `startup`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tag {
+    /// The word.
+    pub name: String,
+    /// Its value.
+    pub value: Option<String>,
+}
+
+/// Where something stands: a file, and a line and column counted from 1.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// The name of the file, or of what stands for one.
+    pub file: String,
+    /// The line.
+    pub line: usize,
+    /// The column.
+    pub column: usize,
+}
+
+impl Origin {
+    /// Where a span of a source begins.
+    #[must_use]
+    pub fn of(span: Span, source: &Source) -> Self {
+        let (line, column) = source.line_column(span.start);
+        Self { file: source.name().to_owned(), line, column }
+    }
 }
 
 /// Reads a text that is one formula, which becomes the requirement of that name.
@@ -56,7 +91,16 @@ pub fn parse_formula(name: &str, source: &Source) -> Result<Requirement, Diagnos
         return Err(Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"));
     };
     let (span, text) = (span(&pair), one_line(pair.as_str()));
-    Ok(Requirement { name: name.to_owned(), sentence: None, formula: checked_formula(pair)?, text, span })
+    Ok(Requirement {
+        name: name.to_owned(),
+        sentence: None,
+        words: None,
+        tags: Vec::new(),
+        formula: checked_formula(pair)?,
+        text,
+        span,
+        origin: Origin::of(span, source),
+    })
 }
 
 /// The formula of a pair of the rule `formula`, unless it is too large.

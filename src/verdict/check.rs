@@ -61,12 +61,7 @@ pub fn check(
     let graph = view.graph();
     let fair = options.fair.then(|| scanning(view, graph));
     let judge = Judge { view, graph, fair: fair.as_ref() };
-    let answers = requirements.par_iter().map(|(requirement, bound)| Answer {
-        name: requirement.name.clone(),
-        sentence: requirement.sentence.clone(),
-        formula: requirement.text.clone(),
-        outcome: judge.outcome(bound),
-    });
+    let answers = requirements.par_iter().map(|(requirement, bound)| Answer::to(requirement, judge.outcome(bound)));
     let answers = answers.collect();
     let unfair = Judge { fair: None, ..judge };
     let ends = match view.scans() {
@@ -129,7 +124,7 @@ impl Judge<'_> {
             Some(witness(view, graph, &dag, &evidence))
         };
         match shown(no) {
-            Some(Ok(witness)) => return Outcome::Violated(witness),
+            Some(Ok(witness)) => return Outcome::Violated(witness, None),
             Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
             None => {}
         }
@@ -144,7 +139,7 @@ impl Judge<'_> {
         };
         let mut never = |premise: &Bound| graph.is_complete() && self.holds_nowhere(premise);
         let vacuous = vacuous_premise(formula, &mut never).map(|premise| premise.text(view.system()));
-        Outcome::Holds { vacuous, witness }
+        Outcome::Holds { vacuous, witness, example: None }
     }
 
     fn holds_nowhere(&self, formula: &Bound) -> bool {

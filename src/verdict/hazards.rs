@@ -21,7 +21,7 @@ pub fn answer(hazard: Hazard, outcome: Outcome) -> Answer {
         Hazard::Index => ("Every index lies within its array.", "AG !index-outside"),
         Hazard::Subrange => ("Every variable stays within its subrange.", "AG !subrange-left"),
     };
-    Answer { name: hazard.to_string(), sentence: Some(sentence.to_owned()), formula: formula.to_owned(), outcome }
+    Answer::of_check(&hazard.to_string(), sentence, formula, outcome)
 }
 
 /// A check in the transition view: control never comes to a place of the hazard. There, the program goes on behind it.
@@ -40,9 +40,9 @@ pub fn formula(system: &System, hazard: Hazard) -> Bound {
 pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph, hazard: Hazard) -> Outcome {
     let met = |failure: &Failure| matches!(failure, Failure::Hazard(_, met) if *met == hazard);
     match failing_scan(space, graph, met) {
-        Failing::None if graph.is_complete() => Outcome::Holds { vacuous: None, witness: None },
+        Failing::None if graph.is_complete() => Outcome::holds(),
         Failing::None => Outcome::Unknown(super::failing::what_is_missing(graph)),
-        Failing::Shown(witness) => Outcome::Violated(witness),
+        Failing::Shown(witness) => Outcome::Violated(witness, None),
         Failing::Refuted(disagreement) => super::check::disagreed(&disagreement.to_string()),
     }
 }

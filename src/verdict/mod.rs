@@ -1,5 +1,6 @@
 //! Verdicts: every requirement holds, is violated with a witness, or is undecided for a reason.
 
+mod answer;
 mod assumptions;
 mod check;
 mod failing;
@@ -9,6 +10,7 @@ mod remarks;
 mod scan_ends;
 mod views;
 
+pub use answer::{Answer, Change, Repair, Why, Writer};
 pub use check::{Options, check};
 pub use net::{Branch, Examination, Means, NetReport, Question, Reply, Run, judge, judge_aloud};
 pub use remarks::Remark;
@@ -26,9 +28,11 @@ pub enum Outcome {
         vacuous: Option<String>,
         /// For a requirement that something is possible, a way there.
         witness: Option<Witness>,
+        /// In the scan view, a run in which its premise occurs.
+        example: Option<Witness>,
     },
-    /// It does not hold.
-    Violated(Witness),
+    /// It does not hold, as a run shows; in the scan view also why.
+    Violated(Witness, Option<Why>),
     /// Nothing is known, for this reason.
     Unknown(String),
 }
@@ -57,12 +61,18 @@ impl Verdict {
 }
 
 impl Outcome {
+    /// It holds, and there is nothing to show.
+    #[must_use]
+    pub fn holds() -> Self {
+        Self::Holds { vacuous: None, witness: None, example: None }
+    }
+
     /// The verdict without its reasons.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self {
             Self::Holds { .. } => Verdict::Holds,
-            Self::Violated(_) => Verdict::Violated,
+            Self::Violated(..) => Verdict::Violated,
             Self::Unknown(_) => Verdict::Unknown,
         }
     }
@@ -72,7 +82,7 @@ impl Outcome {
     pub fn witness(&self) -> Option<&Witness> {
         match self {
             Self::Holds { witness, .. } => witness.as_ref(),
-            Self::Violated(witness) => Some(witness),
+            Self::Violated(witness, _) => Some(witness),
             Self::Unknown(_) => None,
         }
     }
@@ -122,19 +132,6 @@ impl Note {
             _ => format!("after {unit}s {first} to {last}: {}", self.text),
         }
     }
-}
-
-/// A requirement and its outcome.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// Its name.
-    pub name: String,
-    /// What it says in words.
-    pub sentence: Option<String>,
-    /// The formula as it was written.
-    pub formula: String,
-    /// What is known.
-    pub outcome: Outcome,
 }
 
 /// What was explored.

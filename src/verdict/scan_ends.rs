@@ -10,12 +10,7 @@ use crate::translate::{PlaceRole, System};
 
 /// The check with its outcome.
 pub fn answer(outcome: Outcome) -> Answer {
-    Answer {
-        name: "scan-ends".to_owned(),
-        sentence: Some("Every scan comes to its end.".to_owned()),
-        formula: "AG (scan begins -> AF scan ends)".to_owned(),
-        outcome,
-    }
+    Answer::of_check("scan-ends", "Every scan comes to its end.", "AG (scan begins -> AF scan ends)", outcome)
 }
 
 /// The check in the transition view.
@@ -38,7 +33,7 @@ pub fn formula(system: &System) -> Bound {
 /// The check in the scan view: the search has met every scan there is.
 pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
     match failing_scan(space, graph, |failure| *failure == Failure::Scan(Fault::Endless)) {
-        Failing::Shown(witness) => return Outcome::Violated(witness),
+        Failing::Shown(witness) => return Outcome::Violated(witness, None),
         Failing::Refuted(disagreement) => {
             return Outcome::Unknown(format!("the replay refutes the search: {disagreement}"));
         }
@@ -50,7 +45,7 @@ pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
     } else if *graph.stop() != Stop::Complete {
         Outcome::Unknown(format!("{}; the scans explored do end", graph.stop()))
     } else if graph.is_complete() || !has_loops(&space.system().program) {
-        Outcome::Holds { vacuous: None, witness: None }
+        Outcome::holds()
     } else {
         Outcome::Unknown(what_is_missing(graph))
     }

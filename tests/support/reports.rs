@@ -32,7 +32,7 @@ pub fn answer<'r>(report: &'r Report, name: &str) -> &'r Answer {
 /// The counterexample of a requirement that is violated.
 pub fn counterexample<'r>(report: &'r Report, name: &str) -> &'r ScanTrace {
     match &answer(report, name).outcome {
-        Outcome::Violated(witness) => match &witness.trace {
+        Outcome::Violated(witness, _) => match &witness.trace {
             Trace::Scans(trace) => trace,
             Trace::Firings(_) => panic!("{name} is told in firings"),
         },

@@ -6,7 +6,8 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::{
-    DomainText, Requirement, RequirementParser, Rule, checked_formula, constant, diagnostic, name_of, one_line, span,
+    DomainText, Origin, Requirement, RequirementParser, Rule, checked_formula, constant, diagnostic, name_of, one_line,
+    span,
 };
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Source, Span};
@@ -54,7 +55,7 @@ pub fn parse_requirements(source: &Source) -> (RequirementFile, Vec<Diagnostic>)
     };
     for pair in pairs {
         match pair.as_rule() {
-            Rule::requirement => match requirement(pair) {
+            Rule::requirement => match requirement(pair, source) {
                 Ok(requirement) => {
                     let first = *names.entry(key(&requirement.name)).or_insert(requirement.span);
                     if first != requirement.span {
@@ -86,7 +87,7 @@ pub fn parse_requirements(source: &Source) -> (RequirementFile, Vec<Diagnostic>)
     (file, diagnostics)
 }
 
-fn requirement(pair: Pair<'_, Rule>) -> Result<Requirement, Diagnostic> {
+fn requirement(pair: Pair<'_, Rule>, source: &Source) -> Result<Requirement, Diagnostic> {
     let fallback = span(&pair);
     let (mut name, mut sentence, mut formula) = ((String::new(), fallback), None, None);
     for piece in pair.into_inner() {
@@ -99,7 +100,10 @@ fn requirement(pair: Pair<'_, Rule>) -> Result<Requirement, Diagnostic> {
     }
     let (name, span) = name;
     match formula {
-        Some((text, formula)) => Ok(Requirement { name, sentence, formula, text, span }),
+        Some((text, formula)) => {
+            let origin = Origin::of(span, source);
+            Ok(Requirement { name, sentence, words: None, tags: Vec::new(), formula, text, span, origin })
+        }
         None => Err(Diagnostic::new(Code::RequirementSyntax, span, "this requirement has no formula")),
     }
 }
