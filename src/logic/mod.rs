@@ -4,15 +4,18 @@
 //! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
 //! ```
 
+mod assumption;
 mod bind;
 mod bound;
 mod dag;
+mod demand;
 mod domain;
 mod evidence;
 mod formula;
 mod label;
 mod literal;
 mod parse;
+mod past;
 mod representatives;
 mod simplify;
 mod sweep;
@@ -20,15 +23,21 @@ mod text;
 mod vacuity;
 mod valuations;
 
+pub use assumption::{Assumed, Assumption, bind_assumption};
 pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
+pub use demand::{Demand, bind_requirement};
 pub use domain::{DomainText, bind_domain};
 pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
-pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;
-pub use parse::{Origin, Requirement, RequirementFile, Tag, parse_domain, parse_formula, parse_requirements};
+pub use parse::{
+    AssertionText, AssumptionText, Body, Origin, PlantText, Requirement, RequirementFile, Tag, parse_domain,
+    parse_formula, parse_requirement, parse_requirements,
+};
+pub use past::{History, Past, remembered};
 pub use representatives::representatives;
 pub use vacuity::vacuous_premise;
-pub use valuations::{MarkingValuation, ScanValuation};
+pub use valuations::{MarkingValuation, Remembering, ScanValuation};

@@ -6,15 +6,19 @@ use rayon::prelude::*;
 use super::assumptions::assumptions;
 use super::failing::what_is_missing;
 use super::remarks::remarks;
+use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
-use super::{Answer, Exploration, Outcome, Report, hazards, scan_ends};
-use crate::explore::{Budget, Graph, Markings, Progress, ScanSpace, explore};
+use super::{Answer, Exploration, Outcome, Report, admitted, every_line, hazards, scan_ends};
+use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore};
 use crate::flat::Tolerated;
-use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label, vacuous_premise};
+use crate::logic::{
+    Assumed, Assumption, Bound, Dag, Demand, History, Node, NodeId, Quantifier, Requirement, View, evidence, label,
+    vacuous_premise,
+};
 use crate::translate::{PlaceRole, System};
 
 /// How to check.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// What a state is.
     pub view: View,
@@ -24,13 +28,15 @@ pub struct Options {
     pub budget: Budget,
     /// The hazards that are no errors. In the scan view nothing is known after the others.
     pub tolerated: Tolerated,
+    /// What is assumed of the inputs of each scan, in the scan view.
+    pub assumptions: Vec<Assumption>,
 }
 
 impl Default for Options {
-    /// The scan view, and no hazard tolerated.
+    /// The scan view, no hazard tolerated, and nothing assumed.
     fn default() -> Self {
         let (budget, tolerated) = (Budget::default(), Tolerated::default());
-        Self { view: View::Scan, fair: false, budget, tolerated }
+        Self { view: View::Scan, fair: false, budget, tolerated, assumptions: Vec::new() }
     }
 }
 
@@ -39,45 +45,108 @@ impl Default for Options {
 #[must_use]
 pub fn check(
     system: &System,
-    requirements: &[(Requirement, Bound)],
-    options: Options,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Report {
-    let scan_view;
-    let transition_view;
-    let view: &dyn SystemView = match options.view {
-        View::Scan => {
-            let space = ScanSpace::tolerating(system, options.tolerated);
-            let graph = explore(&space, options.budget, watch);
-            scan_view = ScanView { space, graph };
-            &scan_view
+    match options.view {
+        View::Scan => check_scans(system, requirements, options, watch),
+        View::Transition => check_markings(system, requirements, options, watch),
+    }
+}
+
+fn check_scans(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Report {
+    let assumed = Assumed(&options.assumptions);
+    let admission = (!options.assumptions.is_empty()).then_some(&assumed as &dyn Admission);
+    let space = ScanSpace::assuming(system, options.tolerated, admission);
+    let graph = explore(&space, options.budget, watch);
+    let view = ScanView { space, graph, assumptions: &options.assumptions };
+    let outcomes = outcomes(&view, requirements, options, watch);
+    let ScanView { space, graph, .. } = &view;
+    let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
+    let hazards = hazards::checked(&system.program, options.tolerated)
+        .map(|hazard| hazards::answer(hazard, hazards::on_scans(space, graph, hazard)));
+    let inputs = admission.map(|_| admitted::answer(admitted::outcome(&view)));
+    Report {
+        answers: requirements.iter().zip(outcomes).map(|((asked, _), outcome)| Answer::to(asked, outcome)).collect(),
+        checks: ends.chain(hazards).chain(inputs).collect(),
+        remarks: remarks(space, graph),
+        ..report(system, requirements, options, graph)
+    }
+}
+
+/// The outcomes of requirements on scans. Those that know the same of the past are judged together, on one graph.
+fn outcomes(
+    view: &ScanView<'_>,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Vec<Outcome> {
+    let mut groups: Vec<(History, Vec<usize>)> = Vec::new();
+    for (position, (_, demand)) in requirements.iter().enumerate() {
+        let history = History::of(demand.formula());
+        match groups.iter_mut().find(|(known, _)| *known == history) {
+            Some((_, members)) => members.push(position),
+            None => groups.push((history, vec![position])),
         }
-        View::Transition => {
-            let markings = Markings::explored(&system.net, options.budget, watch);
-            transition_view = TransitionView { markings, system };
-            &transition_view
-        }
-    };
+    }
+    let mut outcomes = vec![Outcome::holds(); requirements.len()];
+    for (history, members) in groups {
+        let remembering;
+        let judge = if history.is_empty() {
+            Judge { view, graph: &view.graph, fair: None }
+        } else {
+            let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
+            remembering = RememberingView::new(view, history, Budget { bytes, ..options.budget }, watch);
+            Judge { view: &remembering, graph: remembering.graph(), fair: None }
+        };
+        let judged = members.par_iter().map(|&position| match &requirements[position].1 {
+            Demand::Formula(formula) => judge.outcome(formula),
+            Demand::EveryLine => every_line::outcome(view),
+        });
+        let judged: Vec<Outcome> = judged.collect();
+        members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
+    }
+    outcomes
+}
+
+fn check_markings(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Report {
+    let markings = Markings::explored(&system.net, options.budget, watch);
+    let view = TransitionView { markings, system };
     let graph = view.graph();
-    let fair = options.fair.then(|| scanning(view, graph));
-    let judge = Judge { view, graph, fair: fair.as_ref() };
-    let answers = requirements.par_iter().map(|(requirement, bound)| Answer::to(requirement, judge.outcome(bound)));
+    let fair = options.fair.then(|| scanning(&view, graph));
+    let judge = Judge { view: &view, graph, fair: fair.as_ref() };
+    let answers = requirements.par_iter().map(|(requirement, demand)| {
+        let outcome = match demand {
+            Demand::Formula(formula) => judge.outcome(formula),
+            Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
+        };
+        Answer::to(requirement, outcome)
+    });
     let answers = answers.collect();
     let unfair = Judge { fair: None, ..judge };
-    let ends = match view.scans() {
-        Some(space) => scan_ends::on_scans(space, graph),
-        None => unfair.outcome(&scan_ends::formula(system)),
-    };
-    let met = |hazard| match view.scans() {
-        Some(space) => hazards::on_scans(space, graph, hazard),
-        None => unfair.outcome(&hazards::formula(system, hazard)),
-    };
-    let hazards = hazards::checked(&system.program, options.tolerated);
-    let checks =
-        std::iter::once(scan_ends::answer(ends)).chain(hazards.map(|hazard| hazards::answer(hazard, met(hazard))));
-    let checks = checks.collect();
+    let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
+    let hazards = hazards::checked(&system.program, options.tolerated)
+        .map(|hazard| hazards::answer(hazard, unfair.outcome(&hazards::formula(system, hazard))));
+    let checks = ends.chain(hazards).collect();
+    Report { answers, checks, ..report(system, requirements, options, graph) }
+}
+
+/// A report without answers.
+fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Options, graph: &Graph) -> Report {
     // The first scan is a step too in the scan view, not in the transition view.
     let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
+    let timed = requirements.iter().any(|(requirement, _)| requirement.speaks_of_time());
     Report {
         exploration: Exploration {
             view: options.view,
@@ -88,10 +157,10 @@ pub fn check(
             stop: graph.stop().clone(),
             bytes: graph.bytes(),
         },
-        assumptions: assumptions(system, &options),
-        answers,
-        checks,
-        remarks: view.scans().map(|space| remarks(space, graph)).unwrap_or_default(),
+        assumptions: assumptions(system, options, timed),
+        answers: Vec::new(),
+        checks: Vec::new(),
+        remarks: Vec::new(),
     }
 }
 

@@ -1,12 +1,15 @@
 //! Verdicts: every requirement holds, is violated with a witness, or is undecided for a reason.
 
+mod admitted;
 mod answer;
 mod assumptions;
 mod check;
+mod every_line;
 mod failing;
 mod hazards;
 mod net;
 mod remarks;
+mod remembering;
 mod scan_ends;
 mod views;
 

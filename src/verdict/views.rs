@@ -2,17 +2,15 @@
 
 use super::{Trace, Witness};
 use crate::explore::{Graph, Markings, ScanSpace};
-use crate::logic::{Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
+use crate::logic::{Assumption, Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
 use crate::translate::System;
 use crate::verdict::Note;
-use crate::witness::{Disagreement, Holds, firing_trace, replay_firings, replay_scans, scan_trace};
+use crate::witness::{Disagreement, Holds, Recalled, firing_trace, replay_firings, replay_scans, scan_trace};
 
 /// A view of a system.
 pub trait SystemView: Sync {
     /// Its states and steps.
     fn graph(&self) -> &Graph;
-    /// Its states as ends of scans, if they are.
-    fn scans(&self) -> Option<&ScanSpace<'_>>;
     /// The system.
     fn system(&self) -> &System;
     /// Whether a formula about one state holds in a state.
@@ -30,15 +28,12 @@ pub trait SystemView: Sync {
 pub struct ScanView<'s> {
     pub space: ScanSpace<'s>,
     pub graph: Graph,
+    pub assumptions: &'s [Assumption],
 }
 
 impl SystemView for ScanView<'_> {
     fn graph(&self) -> &Graph {
         &self.graph
-    }
-
-    fn scans(&self) -> Option<&ScanSpace<'_>> {
-        Some(&self.space)
     }
 
     fn system(&self) -> &System {
@@ -56,8 +51,21 @@ impl SystemView for ScanView<'_> {
         shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement> {
         let trace = scan_trace(&self.space, states, loop_start, None);
-        replay_scans(self.system(), &trace, shows)?;
+        replay_scans(self.system(), &trace, |position, recalled| {
+            self.check_assumptions(recalled)?;
+            shows(position, &|formula| recalled.holds(formula))
+        })?;
         Ok(Trace::Scans(trace))
+    }
+}
+
+impl ScanView<'_> {
+    /// What is assumed must be so in the scan that has just ended.
+    pub fn check_assumptions(&self, recalled: &Recalled) -> Result<(), Disagreement> {
+        match self.assumptions.iter().find(|assumption| recalled.holds(&assumption.formula) != Some(true)) {
+            Some(broken) => Err(Disagreement(format!("the assumption `{}` does not hold in the trace", broken.text))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -70,10 +78,6 @@ pub struct TransitionView<'s> {
 impl SystemView for TransitionView<'_> {
     fn graph(&self) -> &Graph {
         self.markings.graph()
-    }
-
-    fn scans(&self) -> Option<&ScanSpace<'_>> {
-        None
     }
 
     fn system(&self) -> &System {

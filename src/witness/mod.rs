@@ -6,12 +6,14 @@
 
 mod firing_trace;
 mod narrate;
+mod recalled;
 mod replay;
 mod scan_trace;
 mod table;
 
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
 pub use narrate::{firing_table, line_by_line, scan_table};
+pub use recalled::Recalled;
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
 pub use table::{Column, Table};
