@@ -13,7 +13,7 @@ use support::assembler::assemble;
 
 const INPUTS: &str = "in k SINT\nin u USINT\nvar m SINT\nout p BOOL\nout q BOOL";
 
-fn bound(system: &System, texts: &[String]) -> Vec<(Requirement, Bound)> {
+fn bound(system: &System, texts: &[String]) -> Vec<(Requirement, Demand)> {
     let one = |text: &String| {
         let requirement = parse_requirement(text, &Source::new("formula", text.as_str())).unwrap();
         let bound = bind_requirement(&requirement, system, View::Scan).unwrap_or_else(|e| panic!("{text}: {e:#?}"));

@@ -365,7 +365,6 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::assert_word => "`assert`",
         Rule::duration | Rule::scans | Rule::time | Rule::count => "a time or a number of scans",
         Rule::word | Rule::tag => "a word",
-        Rule::since => "`since`",
         Rule::range | Rule::based => "a number",
         Rule::identifier => "a name",
         Rule::sentence | Rule::quoted => "a text in quotes",
