@@ -65,7 +65,8 @@ fn one_step() -> System {
 #[test]
 fn implication() {
     let start_wins = bools("Start, Stop", "Motor", "LD Motor; ANDN Stop; OR Start; ST Motor");
-    let sentence = "If Stop is true at the end of the PLC cycle, then !Motor should always be true at the end of the same cycle.";
+    let sentence =
+        "If Stop is true at the end of the PLC cycle, then !Motor should always be true at the end of the same cycle.";
     // Both buttons in the first scan: OR Start comes last.
     pattern(["implication(Stop, !Motor)", sentence], &starter(), &start_wins, &["Start", "Stop", "Motor"], &["111"]);
 }
@@ -93,15 +94,17 @@ fn forbidden() {
 fn state_change_during_a_cycle() {
     let lags = bools("In", "Mem, Out", "LD Mem; ST Out; LD In; ST Mem");
     let follows = bools("In", "Mem, Out", "LD In; ST Mem; ST Out");
-    let sentence = "If Mem is true at the beginning of the PLC cycle, then Out is always true at the end of the same cycle.";
+    let sentence =
+        "If Mem is true at the beginning of the PLC cycle, then Out is always true at the end of the same cycle.";
     pattern(["statechange-duringcycle(Mem, Out)", sentence], &lags, &follows, &["In", "Mem", "Out"], &["111", "000"]);
 }
 
 #[test]
 fn at_the_beginning_of_the_first_scan_there_are_the_initial_values() {
     let program = |initial: &str| {
-        let declarations =
-            format!("VAR_INPUT In : BOOL; END_VAR\nVAR Mem : BOOL := {initial}; END_VAR\nVAR_OUTPUT Out : BOOL; END_VAR");
+        let declarations = format!(
+            "VAR_INPUT In : BOOL; END_VAR\nVAR Mem : BOOL := {initial}; END_VAR\nVAR_OUTPUT Out : BOOL; END_VAR"
+        );
         system(&declarations, "LD In\nST Mem\nST Out")
     };
     let short = "statechange_duringcycle(Mem, Out)";
@@ -157,7 +160,8 @@ fn leads_to_trigger() {
 
 #[test]
 fn leads_to_earlier() {
-    let sentence = "If Done is true at the end of a cycle, Begun was true at the beginning of this or an earlier cycle.";
+    let sentence =
+        "If Done is true at the end of a cycle, Begun was true at the beginning of this or an earlier cycle.";
     let names = ["Start", "Ack", "Begun", "Done"];
     pattern(["leadsto-earlier(Done, Begun)", sentence], &two_steps(), &one_step(), &names, &["1111"]);
 }
@@ -173,11 +177,13 @@ fn timed_trigger() {
     for time in ["3 scans", "T#50ms", "60ms", "T#60ms"] {
         // A scan takes 20 ms: 50 ms are over at the end of the third scan after.
         let short = format!("timed-trigger(In, {time}, Alarm)");
-        let sentence =
-            format!("If In is true at the end of a cycle and stays so for {time}, Alarm will be true.");
+        let sentence = format!("If In is true at the end of a cycle and stays so for {time}, Alarm will be true.");
         pattern([&short, &sentence], &three, &four, &["In", "Alarm"], &run);
     }
-    let longer = ["timed_trigger(In, 61ms, Alarm)", "If In is true at the end of a scan and stays so for 61ms Alarm will be true."];
+    let longer = [
+        "timed_trigger(In, 61ms, Alarm)",
+        "If In is true at the end of a scan and stays so for 61ms Alarm will be true.",
+    ];
     assert_eq!(check(&four, &["In", "Alarm"], longer).0, Verdict::Holds);
 }
 
@@ -206,7 +212,8 @@ fn response() {
 
 /// A counter says when Out comes: in scan `after` after the one with In, which then no longer matters.
 fn delay(after: u32) -> System {
-    let declarations = "VAR_INPUT In : BOOL; END_VAR\nVAR N : INT; Busy : BOOL; END_VAR\nVAR_OUTPUT Out : BOOL; END_VAR";
+    let declarations =
+        "VAR_INPUT In : BOOL; END_VAR\nVAR N : INT; Busy : BOOL; END_VAR\nVAR_OUTPUT Out : BOOL; END_VAR";
     let code = format!(
         "LD Busy\nJMPCN idle\nLD N\nADD 1\nST N\nidle: LD In\nOR Busy\nST Busy\nLD N\nEQ {after}\nST Out\nR Busy\nJMPCN out\nLD 0\nST N\nout: LD Out"
     );

@@ -133,7 +133,7 @@ impl Asked {
                     break;
                 }
                 match bind_requirement(&requirement, system, view) {
-                    Ok(demand) => bound.requirements.push((requirement, demand)),
+                    Ok(demand) => bound.requirements.push((told(requirement, &demand, system), demand)),
                     Err(errors) => diagnostics.extend(errors),
                 }
             }
@@ -142,6 +142,18 @@ impl Asked {
             failed |= any_error(&diagnostics);
         }
         if failed { Err(Failure::Reported) } else { Ok(bound) }
+    }
+}
+
+/// A formula of a pattern that is longer says less than the pattern.
+const LONG: usize = 160;
+
+/// The requirement with the formula that its pattern stands for.
+fn told(requirement: Requirement, demand: &Demand, system: &System) -> Requirement {
+    let formula = demand.formula().filter(|_| requirement.words.is_some()).map(|formula| formula.text(system));
+    match formula.filter(|text| text.len() <= LONG) {
+        Some(text) => Requirement { text, ..requirement },
+        None => requirement,
     }
 }
 

@@ -264,7 +264,7 @@ fn call(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     let Some(called) = parts.next() else { return Err(missing(place)) };
     let name = called.as_str();
     let Some(past) = Past::ALL.into_iter().find(|past| past.name().eq_ignore_ascii_case(name)) else {
-        let names = Past::ALL.iter().map(|past| past.name()).chain(["held"]);
+        let names = Past::ALL.iter().map(|past| past.name()).chain(["held"]).chain(patterns::names());
         let message = format!("there is no operator `{name}`");
         return Err(Diagnostic::new(Code::RequirementSyntax, span(&called), message).suggest(name, names));
     };

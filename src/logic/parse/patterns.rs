@@ -115,6 +115,11 @@ const PATTERNS: [(Pattern, Rule, &str, &str); 16] = [
     (EveryLine, Rule::said_lines, "every_line_reachable()", "Some scan comes to every line of the program."),
 ];
 
+/// What the short forms are called.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    PATTERNS.iter().filter_map(|(_, _, short, _)| short.split('(').next())
+}
+
 /// What stands in a place of a pattern.
 enum Part {
     Formula(Formula, String),
