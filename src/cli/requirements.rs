@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::flat::FlatProgram;
 use petril::logic::{
-    Assumption, Demand, Requirement, RequirementFile, View, bind_assumption, bind_domain, bind_requirement,
-    parse_domain, parse_requirement, parse_requirements,
+    Assertion, Assumption, Demand, Requirement, RequirementFile, View, bind_assertion, bind_assumption, bind_domain,
+    bind_requirement, parse_domain, parse_requirement, parse_requirements,
 };
 use petril::source::Source;
 use petril::syntax;
@@ -22,6 +22,8 @@ struct Text {
     file: RequirementFile,
     diagnostics: Vec<Diagnostic>,
     source: Source,
+    /// The whole text of the program, if it stands in the comments of one.
+    program: Option<String>,
 }
 
 /// All that is asked, in the order in which it is answered.
@@ -34,6 +36,7 @@ pub struct Asked {
 pub struct Bound {
     pub requirements: Vec<(Requirement, Demand)>,
     pub assumptions: Vec<Assumption>,
+    pub assertions: Vec<Assertion>,
 }
 
 impl Asked {
@@ -43,7 +46,12 @@ impl Asked {
         for (i, text) in arguments.domain.iter().enumerate() {
             let source = Source::new(format!("domain {}", i + 1), text.as_str());
             let (domains, diagnostics) = split(parse_domain(&source));
-            asked.texts.push(Text { file: RequirementFile { domains, ..Default::default() }, diagnostics, source });
+            asked.texts.push(Text {
+                file: RequirementFile { domains, ..Default::default() },
+                diagnostics,
+                source,
+                program: None,
+            });
         }
         for (i, text) in arguments.requirement.iter().enumerate() {
             let name = format!("r{}", i + 1);
@@ -53,6 +61,7 @@ impl Asked {
                 file: RequirementFile { requirements, ..Default::default() },
                 diagnostics,
                 source,
+                program: None,
             });
         }
         for file in &arguments.require {
@@ -68,13 +77,15 @@ impl Asked {
     /// Reads what stands in the comments of a program.
     pub fn read_comments(&mut self, program: &Source) {
         if let Some(text) = syntax::requirements_in_comments(program.text()) {
+            let whole = program.text().to_owned();
             self.read_text(Source::new(program.name().to_owned(), text));
+            self.texts.last_mut().into_iter().for_each(|text| text.program = Some(whole.clone()));
         }
     }
 
     fn read_text(&mut self, source: Source) {
         let (file, diagnostics) = parse_requirements(&source);
-        self.texts.push(Text { file, diagnostics, source });
+        self.texts.push(Text { file, diagnostics, source, program: None });
     }
 
     /// The plants that files name, as paths from where the program runs.
@@ -113,11 +124,26 @@ impl Asked {
     /// Everything else, bound.
     pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
-        let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new() };
-        for Text { file, mut diagnostics, source } in self.texts {
+        let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new(), assertions: Vec::new() };
+        for Text { file, mut diagnostics, source, program } in self.texts {
             for assumption in &file.assumptions {
                 match bind_assumption(assumption, system, view) {
                     Ok(assumption) => bound.assumptions.push(assumption),
+                    Err(errors) => diagnostics.extend(errors),
+                }
+            }
+            for assertion in &file.assertions {
+                let bind = || match &program {
+                    Some(program) => bind_assertion(assertion, program, system, view),
+                    None => {
+                        let message = "an assertion stands in the program, before an instruction";
+                        let help =
+                            "write it there as `(*@ assert …; *)`; here, a requirement is `requirement name: AG (…);`";
+                        Err(vec![Diagnostic::new(Code::AssertionUnfit, assertion.span, message).help(help)])
+                    }
+                };
+                match bind() {
+                    Ok(assertion) => bound.assertions.push(assertion),
                     Err(errors) => diagnostics.extend(errors),
                 }
             }

@@ -4,6 +4,7 @@
 //! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
 //! ```
 
+mod assertion;
 mod assumption;
 mod bind;
 mod bound;
@@ -23,7 +24,8 @@ mod text;
 mod vacuity;
 mod valuations;
 
-pub use assumption::{Assumed, Assumption, bind_assumption};
+pub use assertion::{Assertion, bind_assertion};
+pub use assumption::{Assumed, Assumption, Moment, bind_assumption};
 pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
