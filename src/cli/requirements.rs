@@ -22,8 +22,8 @@ struct Text {
     file: RequirementFile,
     diagnostics: Vec<Diagnostic>,
     source: Source,
-    /// The whole text of the program, if it stands in the comments of one.
-    program: Option<String>,
+    /// Whether it stands in the comments of the program.
+    is_program: bool,
 }
 
 /// All that is asked, in the order in which it is answered.
@@ -50,7 +50,7 @@ impl Asked {
                 file: RequirementFile { domains, ..Default::default() },
                 diagnostics,
                 source,
-                program: None,
+                is_program: false,
             });
         }
         for (i, text) in arguments.requirement.iter().enumerate() {
@@ -61,7 +61,7 @@ impl Asked {
                 file: RequirementFile { requirements, ..Default::default() },
                 diagnostics,
                 source,
-                program: None,
+                is_program: false,
             });
         }
         for file in &arguments.require {
@@ -77,15 +77,16 @@ impl Asked {
     /// Reads what stands in the comments of a program.
     pub fn read_comments(&mut self, program: &Source) {
         if let Some(text) = syntax::requirements_in_comments(program.text()) {
-            let whole = program.text().to_owned();
-            self.read_text(Source::new(program.name().to_owned(), text));
-            self.texts.last_mut().into_iter().for_each(|text| text.program = Some(whole.clone()));
+            let (file, diagnostics) = parse_requirements(&Source::new(program.name().to_owned(), text));
+            // Everything stands where it stands in the program.
+            let source = Source::new(program.name().to_owned(), program.text());
+            self.texts.push(Text { file, diagnostics, source, is_program: true });
         }
     }
 
     fn read_text(&mut self, source: Source) {
         let (file, diagnostics) = parse_requirements(&source);
-        self.texts.push(Text { file, diagnostics, source, program: None });
+        self.texts.push(Text { file, diagnostics, source, is_program: false });
     }
 
     /// The plants that files name, as paths from where the program runs.
@@ -125,7 +126,7 @@ impl Asked {
     pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
         let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new(), assertions: Vec::new() };
-        for Text { file, mut diagnostics, source, program } in self.texts {
+        for Text { file, mut diagnostics, source, is_program } in self.texts {
             for assumption in &file.assumptions {
                 match bind_assumption(assumption, system, view) {
                     Ok(assumption) => bound.assumptions.push(assumption),
@@ -133,16 +134,15 @@ impl Asked {
                 }
             }
             for assertion in &file.assertions {
-                let bind = || match &program {
-                    Some(program) => bind_assertion(assertion, program, system, view),
-                    None => {
-                        let message = "an assertion stands in the program, before an instruction";
-                        let help =
-                            "write it there as `(*@ assert …; *)`; here, a requirement is `requirement name: AG (…);`";
-                        Err(vec![Diagnostic::new(Code::AssertionUnfit, assertion.span, message).help(help)])
-                    }
+                let elsewhere = || {
+                    let message = "an assertion stands in the program, before an instruction";
+                    let help =
+                        "write it there as `(*@ assert …; *)`; here, a requirement is `requirement name: AG (…);`";
+                    Err(vec![Diagnostic::new(Code::AssertionUnfit, assertion.span, message).help(help)])
                 };
-                match bind() {
+                let assertion =
+                    if is_program { bind_assertion(assertion, source.text(), system, view) } else { elsewhere() };
+                match assertion {
                     Ok(assertion) => bound.assertions.push(assertion),
                     Err(errors) => diagnostics.extend(errors),
                 }
