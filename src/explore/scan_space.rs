@@ -131,10 +131,17 @@ impl<'s> ScanSpace<'s> {
         }
     }
 
-    fn pack(&self, plant: &[usize], machine: &Machine<'_>, state: &mut [u64]) {
+    fn pack(&self, plant: &[usize], value: impl Fn(VarId) -> u64, state: &mut [u64]) {
         state.fill(0);
         self.components.iter().zip(plant).for_each(|(field, &marking)| field.set(state, marking as u64));
-        self.variables.iter().for_each(|&(variable, field)| field.set(state, machine.value(variable)));
+        self.variables.iter().for_each(|&(variable, field)| field.set(state, value(variable)));
+    }
+
+    /// A state in packed form.
+    pub(super) fn packed(&self, plant: &[usize], memory: &[u64]) -> Vec<u64> {
+        let mut state = vec![0; self.words];
+        self.pack(plant, |variable| memory[variable.0], &mut state);
+        state
     }
 
     /// What tells which lines a scan executes, for [`ScanSpace::packed_beginnings`].
@@ -154,7 +161,7 @@ impl<'s> ScanSpace<'s> {
     }
 
     /// Runs a scan, whose inputs have been set.
-    fn scan(&self, machine: &mut Machine<'_>) -> Result<(), Failure> {
+    pub(super) fn scan(&self, machine: &mut Machine<'_>) -> Result<(), Failure> {
         let ended = machine.scan();
         match self.tolerated.first_error(machine.hazards()) {
             // It comes before whatever keeps the scan from ending.
@@ -168,7 +175,7 @@ impl<'s> ScanSpace<'s> {
         let mut state = vec![0; self.words];
         self.beginnings(from, &mut |machine, plant| {
             let result = self.scan(machine);
-            self.pack(plant, machine, &mut state);
+            self.pack(plant, |variable| machine.value(variable), &mut state);
             visit(ScanRun { plant, machine, end: result.map(|()| state.as_slice()) });
         });
     }

@@ -4,6 +4,7 @@
 //! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
 //! ```
 
+mod along;
 mod bind;
 mod bound;
 mod dag;
@@ -12,6 +13,7 @@ mod evidence;
 mod formula;
 mod label;
 mod literal;
+mod mentions;
 mod parse;
 mod representatives;
 mod simplify;
@@ -20,6 +22,7 @@ mod text;
 mod vacuity;
 mod valuations;
 
+pub use along::along;
 pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
@@ -28,7 +31,8 @@ pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
 pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;
+pub use mentions::Mentions;
 pub use parse::{Origin, Requirement, RequirementFile, Tag, parse_domain, parse_formula, parse_requirements};
 pub use representatives::representatives;
-pub use vacuity::vacuous_premise;
+pub use vacuity::{Premise, Step, premises};
 pub use valuations::{MarkingValuation, ScanValuation};

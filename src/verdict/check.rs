@@ -4,13 +4,17 @@ use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
+use super::coverage::coverage;
 use super::failing::what_is_missing;
+use super::independence::independence;
+use super::premises::{Occurrence, occurrence};
 use super::remarks::remarks;
 use super::views::{ScanView, SystemView, TransitionView, witness};
-use super::{Answer, Exploration, Outcome, Report, hazards, scan_ends};
-use crate::explore::{Budget, Graph, Markings, Progress, ScanSpace, explore};
+use super::why::{Broken, why};
+use super::{Answer, Exploration, Outcome, Report, Verdict, hazards, scan_ends};
+use crate::explore::{Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
-use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label, vacuous_premise};
+use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label};
 use crate::translate::{PlaceRole, System};
 
 /// How to check.
@@ -61,7 +65,11 @@ pub fn check(
     let graph = view.graph();
     let fair = options.fair.then(|| scanning(view, graph));
     let judge = Judge { view, graph, fair: fair.as_ref() };
-    let answers = requirements.par_iter().map(|(requirement, bound)| Answer::to(requirement, judge.outcome(bound)));
+    let answers = requirements.par_iter().map(|(requirement, bound)| {
+        let outcome = judge.outcome(bound);
+        let independent = (outcome.verdict() == Verdict::Holds).then(|| independence(bound, system)).flatten();
+        Answer { independent, ..Answer::to(requirement, outcome) }
+    });
     let answers = answers.collect();
     let unfair = Judge { fair: None, ..judge };
     let ends = match view.scans() {
@@ -78,6 +86,15 @@ pub fn check(
     let checks = checks.collect();
     // The first scan is a step too in the scan view, not in the transition view.
     let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
+    let (coverage, remarks) = match view.scans() {
+        Some(space) => {
+            let never =
+                whole(graph).and_then(|graph| never_executed(space, graph, &mut || watch(&done(graph)).is_some()));
+            let remarks = remarks(space, graph, never.as_deref().unwrap_or_default());
+            (Some(coverage(system, requirements.iter().map(|(_, formula)| formula), never)), remarks)
+        }
+        None => (None, Vec::new()),
+    };
     Report {
         exploration: Exploration {
             view: options.view,
@@ -91,8 +108,20 @@ pub fn check(
         assumptions: assumptions(system, &options),
         answers,
         checks,
-        remarks: view.scans().map(|space| remarks(space, graph)).unwrap_or_default(),
+        remarks,
+        coverage,
     }
+}
+
+/// A graph, if every reachable state and step is in it.
+fn whole(graph: &Graph) -> Option<&Graph> {
+    (graph.is_complete() && !graph.is_empty()).then_some(graph)
+}
+
+/// The figures of a search that is over.
+fn done(graph: &Graph) -> Progress {
+    let states = graph.len() as u64;
+    Progress { states, expanded: states, depth: graph.depth(), bytes: graph.bytes() }
 }
 
 /// The states in which the PLC is not idle. From an idle state `block` is always enabled, so leaving out the paths on which it
@@ -119,13 +148,16 @@ impl Judge<'_> {
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
         let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
         let labels = label(graph, &dag, &holds, fair);
-        let shown = |node: NodeId| {
-            let evidence = evidence(graph, &dag, &labels, fair, node, graph.initial())?;
-            Some(witness(view, graph, &dag, &evidence))
-        };
-        match shown(no) {
-            Some(Ok(witness)) => return Outcome::Violated(witness, None),
-            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
+        let evidence = |node: NodeId| evidence(graph, &dag, &labels, fair, node, graph.initial());
+        let shown = |node: NodeId| Some(witness(view, graph, &dag, &evidence(node)?));
+        let evident = evidence(no).map(|evidence| (witness(view, graph, &dag, &evidence), evidence));
+        match evident {
+            Some((Ok(witness), evidence)) => {
+                let (dag, labels, evidence) = (&dag, &labels, &evidence);
+                let why = why(Broken { view, graph, formula, dag, negation: no, labels, evidence }, &witness);
+                return Outcome::Violated(witness, why);
+            }
+            Some((Err(disagreement), _)) => return disagreed(&disagreement.to_string()),
             None => {}
         }
         let everywhere = graph.initial().iter().all(|&state| labels.of(yes).contains(state as usize));
@@ -137,16 +169,14 @@ impl Judge<'_> {
             Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
             None => None,
         };
-        let mut never = |premise: &Bound| graph.is_complete() && self.holds_nowhere(premise);
-        let vacuous = vacuous_premise(formula, &mut never).map(|premise| premise.text(view.system()));
-        Outcome::Holds { vacuous, witness, example: None }
-    }
-
-    fn holds_nowhere(&self, formula: &Bound) -> bool {
-        let mut dag = Dag::default();
-        let node = dag.add(formula, false);
-        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
-        label(self.graph, &dag, &holds, self.fair).of(node).is_clear()
+        let occurrence = whole(graph).map(|graph| occurrence(view, graph, fair, formula)).transpose();
+        match occurrence {
+            Ok(occurrence) => {
+                let Occurrence { vacuous, example } = occurrence.unwrap_or_default();
+                Outcome::Holds { vacuous, witness, example }
+            }
+            Err(disagreement) => disagreed(&disagreement.to_string()),
+        }
     }
 }
 

@@ -9,9 +9,11 @@ mod narrate;
 mod replay;
 mod scan_trace;
 mod table;
+mod writes;
 
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
-pub use narrate::{firing_table, line_by_line, scan_table};
+pub use narrate::{firing_table, line_by_line, marked_scan_table, scan_table};
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
 pub use table::{Column, Table};
+pub use writes::{Write, last_writes};
