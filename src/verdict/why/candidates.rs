@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::Broken;
 use crate::explore::{Position, ScanSpace};
 use crate::flat::{Instruction, Operand};
-use crate::semantics::VarId;
+use crate::semantics::{Type, VarId};
 use crate::verdict::Change;
 use crate::verdict::coverage::read;
 use crate::witness::ScanTrace;
@@ -59,7 +59,9 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
             let earlier = earlier.flatten().filter(|(own, _)| *own == input).map(|&(_, value)| value);
             let (values, are_all) = values(space, input, now(input), &numbers, earlier);
             candidates.are_all &= are_all;
-            let alternatives = values.into_iter().map(|to| vec![change(input, to)]).collect();
+            let ty = system.program.variable(input).ty;
+            let mut alternatives: Vec<Vec<Change>> = values.into_iter().map(|to| vec![change(input, to)]).collect();
+            alternatives.sort_by_key(|changes| apart(ty, &changes[0]));
             candidates.slots.push(Slot { scan, now: vec![(input, now(input))], alternatives });
         }
         let before = scan.checked_sub(1).map_or(&beginning, |earlier| &ends[earlier]);
@@ -83,7 +85,10 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
                 ahead.take(ALL).map(|(marking, _)| differing(marking)).collect()
             };
             alternatives.retain(|changes| !changes.is_empty());
-            alternatives.sort_by_key(|changes| changes.iter().map(|c| (c.input, c.to)).collect::<Vec<_>>());
+            alternatives.sort_by_key(|changes| {
+                let apart = changes.iter().map(|change| apart(system.program.variable(change.input).ty, change));
+                (apart.sum::<u128>(), changes.iter().map(|change| (change.input, change.to)).collect::<Vec<_>>())
+            });
             alternatives.dedup();
             let now = first.inputs.iter().map(|&(input, _)| (input, now(input))).collect();
             candidates.slots.push(Slot { scan, now, alternatives });
@@ -91,6 +96,11 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
     }
     candidates.slots.retain(|slot| !slot.alternatives.is_empty());
     candidates
+}
+
+/// How far apart the values of a change are. The nearest are tried first.
+fn apart(ty: Type, change: &Change) -> u128 {
+    (ty.number(change.to) - ty.number(change.from)).unsigned_abs()
 }
 
 /// What a free input might have been, and whether that is all: for a number of many values those it has elsewhere in the run, its
