@@ -39,11 +39,10 @@ pub fn occurrence(
             return Ok(Occurrence { vacuous: Some(vacuous), example: None });
         }
         // The premises of one chain stand behind each other.
-        let goes_on = told.as_ref().is_none_or(|(before, _)| premise.way.starts_with(&before.way));
-        if view.scans().is_some()
-            && goes_on
-            && premise.way.len() > told.as_ref().map_or(0, |(before, _)| before.way.len())
-        {
+        let goes_on = told
+            .as_ref()
+            .is_none_or(|(before, _)| premise.way.len() > before.way.len() && premise.way.starts_with(&before.way));
+        if view.scans().is_some() && goes_on {
             told = Some((premise, sets));
         }
     }
