@@ -89,7 +89,9 @@ impl Text<'_> {
             Trace::Firings(trace) => firing_table(self.system, trace),
         };
         let mut out = format!("\n{}\n", indent(&table.within(self.width())));
-        for note in &witness.notes {
+        // What is so after one scan is told again by what was wanted.
+        let is_told = why.is_some_and(|why| !why.wanted.is_empty()) && !self.arguments.details;
+        for note in witness.notes.iter().filter(|note| !is_told || note.first != note.last) {
             out += &self.told(&note.sentence(report.exploration.view));
         }
         out += &self.end(&witness.trace);

@@ -29,7 +29,7 @@ impl Text<'_> {
         }
         match (&why.repair, &why.unrepaired) {
             (Some(repair), _) => out += &self.reason("matters", &self.repair(repair)),
-            (None, Some(reason)) => out += &self.reason("matters", &format!("no input is named: {reason}")),
+            (None, Some(reason)) => out += &self.reason("matters", reason),
             (None, None) => {}
         }
         out

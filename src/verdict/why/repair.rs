@@ -40,10 +40,19 @@ pub fn repair(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace) -> 
     let ends: Vec<Position> = itself.ends.iter().map(|end| Position::clone(end)).collect();
     let search = Search { broken, space, rerun, universal, scan_length: space.system().program.end() + 16 };
     if !matches!(search.judged(itself), Trial::Breaks) {
-        return Err("it is broken by what all runs have in common, not by the inputs of this one".to_owned());
+        return Err(in_common());
+    }
+    let initial = broken.labels.of(broken.negation);
+    if universal && trace.scans.len() == 1 && broken.graph.initial().iter().all(|&id| initial.contains(id as usize)) {
+        return Err(in_common());
     }
     let candidates = candidates(broken, space, trace, &ends);
     search.smallest(&candidates)
+}
+
+/// The reason where no run does better.
+fn in_common() -> String {
+    "it is broken by what all runs have in common, not by the inputs of this one".to_owned()
 }
 
 struct Search<'a> {
@@ -113,9 +122,12 @@ impl Search<'_> {
                 break;
             }
         }
-        let enough = self.shrunk(&candidates.slots).ok_or_else(|| {
-            let tried = if self.is_exhausted(WORK) { "as far as was tried" } else { "up to four at a time" };
-            format!("no other values of a few inputs, {tried}, make a run that does not break it")
+        let all_tried = candidates.are_all && !self.is_exhausted(WORK) && !self.rerun.gave_up();
+        let enough = self.shrunk(&candidates.slots).ok_or_else(|| match all_tried {
+            true => "this run would break it with any other values of up to four of its inputs, too".to_owned(),
+            false => {
+                "among other values of its inputs, as far as they were tried, none keep this run from it".to_owned()
+            }
         })?;
         self.confirmed(vec![enough], false)
     }
