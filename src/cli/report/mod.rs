@@ -33,7 +33,8 @@ impl Text<'_> {
     /// The whole report.
     pub fn report(&self, report: &Report) -> String {
         let program = &self.system.program;
-        let title = format!("program `{}` from {}, {} lines of flat code", program.name, self.source.name(), program.end());
+        let title =
+            format!("program `{}` from {}, {} lines of flat code", program.name, self.source.name(), program.end());
         let mut out = paragraph("", 0, &title, self.console.output_width()) + "\n";
         out += &indent(&self.size().to_string());
         out += "\n";

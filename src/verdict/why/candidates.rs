@@ -1,5 +1,6 @@
 //! The inputs of a run that might have been others, and what they might have been.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 use super::Broken;
@@ -34,7 +35,7 @@ impl Slot {
     }
 }
 
-/// All slots of a run, those of later scans first.
+/// All slots of a run: those of later scans first, and of one scan those that have just changed.
 pub struct Candidates {
     pub slots: Vec<Slot>,
     /// Whether nothing was left out that might make a difference.
@@ -95,6 +96,13 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
         }
     }
     candidates.slots.retain(|slot| !slot.alternatives.is_empty());
+    // What has just changed is the first that comes to mind.
+    let earlier = |scan: usize, input: VarId| match scan.checked_sub(1) {
+        Some(before) => ends[before].memory[input.0],
+        None => program.variable(input).initial,
+    };
+    let stayed = |slot: &Slot| slot.now.iter().all(|&(input, value)| earlier(slot.scan, input) == value);
+    candidates.slots.sort_by_key(|slot| (Reverse(slot.scan), stayed(slot)));
     candidates
 }
 
