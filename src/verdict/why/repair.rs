@@ -4,7 +4,7 @@ use super::Broken;
 use super::candidates::{Candidates, Slot, candidates};
 use super::rerun::{Again, Rerun};
 use crate::explore::{Position, ScanSpace};
-use crate::logic::{Bound, Node, along};
+use crate::logic::{Bound, Node, Quantifier, along};
 use crate::semantics::VarId;
 use crate::verdict::{Change, Repair};
 use crate::witness::{Disagreement, ScanTrace};
@@ -43,7 +43,11 @@ pub fn repair(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace) -> 
         return Err(in_common());
     }
     let initial = broken.labels.of(broken.negation);
-    if universal && trace.scans.len() == 1 && broken.graph.initial().iter().all(|&id| initial.contains(id as usize)) {
+    let on_all_paths = matches!(
+        broken.dag.node(broken.negation),
+        Node::Next(Quantifier::All, _) | Node::Until(Quantifier::All, ..) | Node::WeakUntil(Quantifier::All, ..)
+    );
+    if on_all_paths && broken.graph.initial().iter().all(|&id| initial.contains(id as usize)) {
         return Err(in_common());
     }
     let candidates = candidates(broken, space, trace, &ends);
@@ -226,7 +230,7 @@ impl Search<'_> {
         }
         let mut sets = sets.into_iter();
         let changes = sets.next().ok_or("it cannot be confirmed")?;
-        Ok(Repair { changes, is_smallest, others: sets.collect() })
+        Ok(Repair { is_smallest: is_smallest || changes.len() == 1, changes, others: sets.collect() })
     }
 
     /// Replays a run on the net, and compares what it is said to show with what the replay shows.

@@ -45,12 +45,19 @@ impl Teller<'_> {
         self.broken.view.holds(formula, self.broken.graph.state(self.broken.evidence.states[at]))
     }
 
-    /// Where the run itself shows that a formula has this value.
+    /// Where the run shows that a formula has this value. What is so on all paths is looked up where the whole requirement was
+    /// labelled.
     fn shown(&self, formula: &Bound, value: bool) -> Vec<bool> {
+        let Broken { dag: whole, labels, evidence, .. } = *self.broken;
         let mut dag = Dag::default();
         let node = dag.add(formula, !value);
-        let run = (self.length(), self.broken.evidence.loop_start);
-        let mut truths = along(&dag, run, &|formula, at| self.holds(formula, at), &|_, _| false);
+        let everywhere = |id, at: usize| {
+            let claim = dag.formula(id);
+            let mut same = whole.ids().filter(|&known| whole.is_universal(known) && whole.formula(known) == claim);
+            same.next().is_some_and(|known| labels.of(known).contains(evidence.states[at] as usize))
+        };
+        let run = (self.length(), evidence.loop_start);
+        let mut truths = along(&dag, run, &|formula, at| self.holds(formula, at), &everywhere);
         truths.swap_remove(node.index())
     }
 
@@ -152,6 +159,7 @@ impl Teller<'_> {
                 let (text, becomes) = self.stripped(release, true);
                 let wanted = format!("it had to be possible that {text} becomes {becomes}");
                 self.say(at, &wanted, "it is not, whatever happens");
+                self.rest(release, at);
             }
             (_, false) => self.say(at, &format!("`{text}` had to hold"), "it does not"),
             (_, true) => self.say(at, &format!("`{text}` was not to hold"), "it does"),
