@@ -24,10 +24,10 @@
 //!
 //! let check = |formula: &str| {
 //!     let view = logic::View::Scan;
-//!     let requirement = logic::parse_formula("r1", &Source::new("formula", formula)).expect("a formula");
-//!     let bound = logic::bind(&requirement.formula, &system, view).expect("names the program has");
+//!     let requirement = logic::parse_requirement("r1", &Source::new("formula", formula)).expect("a formula");
+//!     let bound = logic::bind_requirement(&requirement, &system, view).expect("names the program has");
 //!     let options = verdict::Options { view, ..Default::default() };
-//!     verdict::check(&system, &[(requirement, bound)], options, &mut |_| None)
+//!     verdict::check(&system, &[(requirement, bound)], &options, &mut |_| None)
 //! };
 //! assert_eq!(check("AG (Stop -> !Motor)").verdict(), verdict::Verdict::Holds);
 //! assert_eq!(check("AG (Motor -> Start)").verdict(), verdict::Verdict::Violated);

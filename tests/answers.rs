@@ -7,9 +7,14 @@ mod support;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 use petril::explore::{ScanSpace, ScanState};
-use petril::logic::{Bound, Dag, Quantifier, Requirement, ScanValuation, View, parse_formula};
+use petril::logic::{
+    Bound, Comparison, Dag, Past, Quantifier, Requirement, Term, Valuation, View, bind_assumption, bind_requirement,
+    parse_requirement, parse_requirements,
+};
+use petril::net::{PlaceId, TransitionId};
 use petril::semantics::{Role, VarId};
 use petril::source::Source;
 use petril::translate::System;
@@ -122,6 +127,41 @@ fn a_pallet_with_too_many_bottles() {
     assert_eq!(why.repair.as_ref().unwrap().changes.len(), 1);
 }
 
+/// What was before is told with the value it had, and who wrote it then.
+#[test]
+fn what_looks_back() {
+    let system = system(include_str!("../examples/latching-starter.il"), &[]);
+    let report = report(
+        &system,
+        "requirement r: AG (falling(Start) -> !Motor); requirement s: AG held(Motor -> Start, 1 scan);
+        requirement t: AG (pre(Motor) <-> Motor);",
+    );
+    let edge = why(&report, "r");
+    assert_eq!(edge.wanted.len(), 1);
+    assert!(edge.wanted[0].ends_with("so `Motor` had to be FALSE, but it is TRUE"), "{:?}", edge.wanted);
+    let sets = ["Start = 1 in scan 2", "Stop = 0 in scan 2", "Overload = 0 in scan 2", "Start = 0 in scan 1"];
+    assert_eq!(repairs(&system, edge), sets.map(|set| vec![set.to_owned()]));
+    let same = why(&report, "t");
+    let so = "After scan 1 `pre(Motor) <-> Motor` had to hold, but `Motor` was FALSE and `Motor` is TRUE";
+    assert_eq!(same.wanted, [so]);
+    assert_eq!(writers(&system, same), ["Motor = 1 in scan 1 by ST Motor"]);
+}
+
+/// An assumption leaves out the values that would have been the first ones.
+#[test]
+fn what_is_assumed_not_to_happen_is_not_proposed() {
+    let system = system(include_str!("../examples/latching-starter.il"), &[]);
+    let source = Source::new("r", "assume: Stop & Overload; requirement r: AG (Motor -> Start);");
+    let (file, errors) = parse_requirements(&source);
+    assert!(errors.is_empty());
+    let demand = bind_requirement(&file.requirements[0], &system, View::Scan).unwrap();
+    let assumptions = vec![bind_assumption(&file.assumptions[0], &system, View::Scan).unwrap()];
+    let options = Options { assumptions, ..Options::default() };
+    let report = check(&system, &[(file.requirements[0].clone(), demand)], &options, &mut |_| None);
+    let why = why(&report, "r");
+    assert_eq!(repairs(&system, why), [["Start = 1 in scan 2"], ["Start = 0 in scan 1"]]);
+}
+
 #[test]
 fn what_nobody_writes_has_its_initial_value() {
     let text = "PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR lamp : BOOL := TRUE; END_VAR VAR_OUTPUT q : BOOL; END_VAR
@@ -218,7 +258,10 @@ impl Everything<'_> {
         let mut phase = 0;
         loop {
             let end = self.after(&state, &inputs[phase]).pop()?;
-            if let Some(knot) = phases.iter().position(|known| *known == (phase, end.clone())) {
+            // Often enough for what is remembered to have settled.
+            let known = |(_, known): &(usize, &(usize, Vec<u64>))| **known == (phase, end.clone());
+            let knots: Vec<usize> = phases.iter().enumerate().filter(known).map(|(at, _)| at).collect();
+            if let (5.., Some(&knot)) = (knots.len(), knots.last()) {
                 return Some((states, knot));
             }
             phases.push((phase, end.clone()));
@@ -247,9 +290,7 @@ impl Run<'_> {
     fn shows(&self, formula: &Bound, value: bool, at: usize) -> bool {
         let of = |f: &Bound, value| self.shows(f, value, at);
         match formula {
-            _ if formula.is_state_formula() => {
-                formula.holds_in(&ScanValuation(self.space, &self.states[at])).unwrap() == value
-            }
+            _ if formula.is_state_formula() => formula.holds_in(&Moment { run: self, at: Some(at) }).unwrap() == value,
             Bound::Not(f) => of(f, !value),
             Bound::And(f, g) if value => of(f, true) && of(g, true),
             Bound::And(f, g) => of(f, false) || of(g, false),
@@ -279,6 +320,62 @@ impl Run<'_> {
             }
             _ => unreachable!("scan states have no places"),
         }
+    }
+}
+
+/// A position of a run; none is power-on. The past is looked up by going back.
+struct Moment<'r, 's> {
+    run: &'r Run<'s>,
+    at: Option<usize>,
+}
+
+impl Moment<'_, '_> {
+    fn before(&self) -> Self {
+        Self { run: self.run, at: self.at.and_then(|at| at.checked_sub(1)) }
+    }
+}
+
+impl Valuation for Moment<'_, '_> {
+    fn value(&self, variable: VarId) -> u64 {
+        let space = self.run.space;
+        match self.at {
+            Some(at) => space.value(&self.run.states[at], variable),
+            None => space.system().program.variable(variable).initial,
+        }
+    }
+
+    fn past(&self, past: &Past) -> i128 {
+        let Some(at) = self.at else { return 0 };
+        let holds = |formula: &Bound, at| formula.holds_in(&Moment { run: self.run, at: Some(at) }).unwrap();
+        match past {
+            Past::First => i128::from(at == 0),
+            Past::Before(Term::Truth(formula)) => i128::from(formula.holds_in(&self.before()).unwrap()),
+            Past::Before(_) => unreachable!("the programs have truth values only"),
+            Past::Since(f, g) => {
+                let since = (0..=at).rev().find(|&then| holds(g, then));
+                i128::from(since.is_some_and(|then| (then + 1..=at).all(|at| holds(f, at))))
+            }
+            Past::Run { of, most } => {
+                let run = (0..=at).rev().take_while(|&at| holds(of, at)).count();
+                i128::try_from(run).unwrap().min(i128::from(*most))
+            }
+        }
+    }
+
+    fn is_marked(&self, _: PlaceId) -> bool {
+        false
+    }
+
+    fn tokens(&self, _: PlaceId) -> u64 {
+        0
+    }
+
+    fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
+
+    fn is_deadlock(&self) -> bool {
+        false
     }
 }
 
@@ -318,7 +415,16 @@ fn formula() -> impl Strategy<Value = Bound> {
         let pair = (variable.clone(), variable.clone(), any::<bool>());
         let pair = pair
             .prop_map(|(f, g, and)| if and { Bound::And(f.into(), g.into()) } else { Bound::Or(f.into(), g.into()) });
-        prop_oneof![2 => variable, 1 => pair]
+        let past = (variable.clone(), variable.clone(), 0..4).prop_map(|(f, g, kind)| {
+            let (past, least) = match kind {
+                0 => (Past::First, 1),
+                1 => (Past::Before(Term::Truth(Box::new(f))), 1),
+                2 => (Past::Since(f, g), 1),
+                _ => (Past::Run { of: f, most: 2 }, 2),
+            };
+            Bound::Compare(Comparison::AtLeast, Term::Past(Arc::new(past)), Term::Number(least))
+        });
+        prop_oneof![4 => variable, 2 => pair, 1 => past]
     };
     let until = |weak, hold: Bound, release: Bound| Bound::Until {
         quantifier: Quantifier::All,
@@ -345,13 +451,13 @@ fn formula() -> impl Strategy<Value = Bound> {
 
 /// A requirement with a formula that is bound already.
 fn requirement() -> Requirement {
-    parse_formula("r", &Source::new("r", "TRUE")).unwrap()
+    parse_requirement("r", &Source::new("r", "TRUE")).unwrap()
 }
 
 /// The repair of a formula that some run breaks, with the run.
 fn broken(system: &System, formula: &Bound) -> Option<(ScanTrace, Why)> {
     let options = Options { view: View::Scan, ..Options::default() };
-    let mut report = check(system, &[(requirement(), formula.clone())], options, &mut |_| None);
+    let mut report = check(system, &[(requirement(), formula.clone().into())], &options, &mut |_| None);
     match report.answers.remove(0).outcome {
         Outcome::Violated(witness, why) => match witness.trace {
             Trace::Scans(trace) => Some((trace, why.unwrap())),

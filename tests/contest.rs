@@ -164,8 +164,8 @@ fn answers_are_those_worked_out_by_hand() {
 fn answers_are_shown_by_runs() {
     let net = tina::read(&Source::new("lamps.net", LAMPS)).unwrap().net;
     let run = |text: &str| {
-        let parsed = parse_formula("f", &Source::new("f", text)).unwrap();
-        let formula = bind_in_net(&parsed.formula, &Nodes::by_name(&net)).unwrap();
+        let parsed = parse_formula(&Source::new("f", text)).unwrap();
+        let formula = bind_in_net(&parsed, &Nodes::by_name(&net)).unwrap();
         let report = judge(&net, &[Question::Holds(formula)], &Options::default(), &mut |_| None);
         let (word, run) = match &report.replies[0] {
             Reply::Holds(run) => ("holds", run),
@@ -206,8 +206,8 @@ fn answers_are_shown_by_trees() {
         other => panic!("{other:?}"),
     };
     let formula = |text: &str| {
-        let parsed = parse_formula("f", &Source::new("f", text)).unwrap();
-        tree(Question::Holds(bind_in_net(&parsed.formula, &Nodes::by_name(&net)).unwrap()))
+        let parsed = parse_formula(&Source::new("f", text)).unwrap();
+        tree(Question::Holds(bind_in_net(&parsed, &Nodes::by_name(&net)).unwrap()))
     };
     // With lamp 2 on, lamp 1 can be switched for ever, and it can break.
     assert_eq!(

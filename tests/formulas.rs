@@ -112,8 +112,8 @@ proptest! {
 
 /// The formula of a text about the net alone, or what is wrong with it.
 fn in_net(text: &str) -> Result<Bound, Vec<String>> {
-    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
-    bind_in_net(&requirement.formula, &Nodes::by_name(&SYSTEM.net)).map_err(|errors| {
+    let formula = parse_formula(&Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+    bind_in_net(&formula, &Nodes::by_name(&SYSTEM.net)).map_err(|errors| {
         errors.into_iter().map(|e| format!("{} {}; {}", e.code, e.message, e.help.join(""))).collect()
     })
 }
@@ -151,8 +151,8 @@ fn a_net_alone_has_places_and_transitions_only() {
 #[test]
 fn tokens_and_deadlocks_are_not_seen_in_the_scan_view() {
     let text = "tokens(\"x=1\") = 1 -> at deadlock";
-    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap();
-    let errors = bind(&requirement.formula, &SYSTEM, View::Scan).unwrap_err();
+    let formula = parse_formula(&Source::new("formula", text)).unwrap();
+    let errors = bind(&formula, &SYSTEM, View::Scan).unwrap_err();
     let said: Vec<_> = errors.iter().map(|e| (e.code.id(), e.message.as_str())).collect();
     let of = "but a state of the scan view is the end of a scan";
     assert_eq!(
@@ -171,8 +171,8 @@ fn ids_are_not_names() {
     let [zero, one] = ["x=0", "x=1"].map(|name| net.find_place(name).unwrap());
     let nodes = Nodes::by_id([("x=1", zero), ("alias", zero), ("b", one)], []);
     let bound = |text: &str| {
-        let requirement = parse_formula("r", &Source::new("formula", text)).unwrap();
-        bind_in_net(&requirement.formula, &nodes).map_err(|errors| errors[0].message.clone())
+        let formula = parse_formula(&Source::new("formula", text)).unwrap();
+        bind_in_net(&formula, &nodes).map_err(|errors| errors[0].message.clone())
     };
     assert_eq!(bound("marked(\"x=1\")"), Ok(Bound::Marked(zero)));
     assert_eq!(bound("marked(\"alias\")"), Ok(Bound::Marked(zero)));

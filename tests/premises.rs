@@ -5,7 +5,7 @@
 mod support;
 
 use petril::explore::{Budget, Graph, ScanSpace, explore};
-use petril::logic::{Bound, Dag, Quantifier, Requirement, ScanValuation, label, parse_formula, premises};
+use petril::logic::{Bound, Dag, Quantifier, Requirement, ScanValuation, label, parse_requirement, premises};
 use petril::semantics::VarId;
 use petril::source::Source;
 use petril::translate::System;
@@ -167,7 +167,7 @@ fn formula() -> impl Strategy<Value = Bound> {
 }
 
 fn requirement() -> Requirement {
-    parse_formula("r", &Source::new("r", "TRUE")).unwrap()
+    parse_requirement("r", &Source::new("r", "TRUE")).unwrap()
 }
 
 proptest! {
@@ -196,7 +196,7 @@ proptest! {
                 }
             }
             // The report says the same, and shows an example of all others.
-            let report = check(&system, &[(requirement(), formula.clone())], Options::default(), &mut |_| None);
+            let report = check(&system, &[(requirement(), formula.clone().into())], &Options::default(), &mut |_| None);
             if let Outcome::Holds { vacuous, example, .. } = &report.answers[0].outcome {
                 prop_assert!(own.0);
                 prop_assert_eq!(vacuous.as_ref().map(|vacuity| vacuity.premise().to_owned()), never.clone());

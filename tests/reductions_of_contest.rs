@@ -26,7 +26,7 @@ fn seen(formula: &Bound, keep: &mut Keep) {
             [f, g].into_iter().for_each(|f| seen(f, keep));
         }
         Bound::Truth(_) => {}
-        Bound::Variable(_) | Bound::Next(..) | Bound::Until { .. } => panic!("not about one marking"),
+        Bound::Variable(_) | Bound::Bit(..) | Bound::Next(..) | Bound::Until { .. } => panic!("not about one marking"),
     }
 }
 
@@ -38,7 +38,7 @@ fn seen_by_term(term: &Term, keep: &mut Keep) {
         Term::Sum(a, b) | Term::Difference(a, b) | Term::Product(a, b) => {
             [a, b].into_iter().for_each(|term| seen_by_term(term, keep));
         }
-        Term::Variable(..) | Term::Bits { .. } => panic!("a net has no variables"),
+        Term::Variable(..) | Term::Bits { .. } | Term::Past(_) => panic!("a net has no variables"),
     }
 }
 

@@ -4,7 +4,7 @@
 mod support;
 
 use petril::flat::FlatProgram;
-use petril::logic::{Bound, Requirement, View, bind, parse_formula, representatives};
+use petril::logic::{Demand, Requirement, View, bind_requirement, parse_requirement, representatives};
 use petril::source::Source;
 use petril::translate::{Domains, Plant, System};
 use petril::verdict::{Options, Trace, check};
@@ -13,10 +13,10 @@ use support::assembler::assemble;
 
 const INPUTS: &str = "in k SINT\nin u USINT\nvar m SINT\nout p BOOL\nout q BOOL";
 
-fn bound(system: &System, texts: &[String]) -> Vec<(Requirement, Bound)> {
+fn bound(system: &System, texts: &[String]) -> Vec<(Requirement, Demand)> {
     let one = |text: &String| {
-        let requirement = parse_formula(text, &Source::new("formula", text.as_str())).unwrap();
-        let bound = bind(&requirement.formula, system, View::Scan).unwrap_or_else(|e| panic!("{text}: {e:#?}"));
+        let requirement = parse_requirement(text, &Source::new("formula", text.as_str())).unwrap();
+        let bound = bind_requirement(&requirement, system, View::Scan).unwrap_or_else(|e| panic!("{text}: {e:#?}"));
         (requirement, bound)
     };
     texts.iter().map(one).collect()
@@ -32,7 +32,7 @@ fn found(program: &FlatProgram, texts: &[String]) -> Domains {
 /// Name, verdict and length of the trace of each requirement, and the values of the outputs on it.
 fn answers(program: &FlatProgram, domains: Domains, texts: &[String]) -> Vec<String> {
     let system = System::with_domains(program.clone(), Plant::default(), domains);
-    let report = check(&system, &bound(&system, texts), Options::default(), &mut |_| None);
+    let report = check(&system, &bound(&system, texts), &Options::default(), &mut |_| None);
     let scans = |trace: &Trace| match trace {
         Trace::Scans(trace) => trace.scans.len(),
         Trace::Firings(trace) => trace.firings.len(),

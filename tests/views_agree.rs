@@ -66,6 +66,7 @@ fn counterpart(f: &Bound, system: &System) -> Bound {
             let (f, g) = ((**hold).clone(), (**release).clone());
             not(counterpart(&exists(!weak, not(g.clone()), and(not(f), not(g))), system))
         }
+        Bound::Bit(..) => unreachable!("the programs have truth values only"),
         Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => unreachable!("scan states have none of them"),
     }
 }
@@ -75,7 +76,9 @@ fn term(t: &petril::logic::Term, system: &System) -> petril::logic::Term {
     let of = |t: &Term| Box::new(term(t, system));
     match t {
         Term::Number(n) => Term::Number(*n),
-        Term::Variable(..) | Term::Bits { .. } | Term::Tokens(_) => unreachable!("the programs have truth values only"),
+        Term::Variable(..) | Term::Bits { .. } | Term::Tokens(_) | Term::Past(_) => {
+            unreachable!("the programs have truth values only, and nothing looks back")
+        }
         Term::Truth(f) => Term::Truth(Box::new(counterpart(f, system))),
         Term::Sum(a, b) => Term::Sum(of(a), of(b)),
         Term::Difference(a, b) => Term::Difference(of(a), of(b)),

@@ -6,7 +6,9 @@ mod support;
 
 use petril::exchange::json;
 use petril::flat::{FlatProgram, Hazard, Tolerated};
-use petril::logic::{View, bind, bind_domain, parse_domain, parse_formula, parse_requirements};
+use petril::logic::{
+    View, bind, bind_domain, bind_requirement, parse_domain, parse_formula, parse_requirement, parse_requirements,
+};
 use petril::source::Source;
 use petril::translate::{Domains, Plant, System};
 use petril::verdict::{Answer, Options, Outcome, Report, Trace, check};
@@ -31,10 +33,10 @@ fn report(system: &System, formulas: &[&str], tolerated: Tolerated) -> Report {
     let (file, errors) = parse_requirements(&Source::new("requirements", text));
     assert!(errors.is_empty() || formulas.is_empty(), "{errors:#?}");
     let bound = file.requirements.into_iter().map(|requirement| {
-        let bound = bind(&requirement.formula, system, View::Scan).unwrap_or_else(|e| panic!("{e:#?}"));
+        let bound = bind_requirement(&requirement, system, View::Scan).unwrap_or_else(|e| panic!("{e:#?}"));
         (requirement, bound)
     });
-    check(system, &bound.collect::<Vec<_>>(), Options { tolerated, ..Options::default() }, &mut |_| None)
+    check(system, &bound.collect::<Vec<_>>(), &Options { tolerated, ..Options::default() }, &mut |_| None)
 }
 
 /// The verdicts, each in one word: first the checks' that are made without asking, then the requirements'.
@@ -264,12 +266,12 @@ fn the_transition_view_knows_numbers() {
         "AG (k + 1 <= 1)",
     ];
     let answers = formulas.map(|text| {
-        let requirement = parse_formula(text, &Source::new("formula", text)).unwrap();
-        let bound = bind(&requirement.formula, &system, View::Transition).unwrap();
+        let requirement = parse_requirement(text, &Source::new("formula", text)).unwrap();
+        let bound = bind_requirement(&requirement, &system, View::Transition).unwrap();
         (requirement, bound)
     });
     let options = Options { view: View::Transition, ..Options::default() };
-    let report = check(&system, &answers, options, &mut |_| None);
+    let report = check(&system, &answers, &options, &mut |_| None);
     let words: Vec<_> =
         report.checks.iter().chain(&report.answers).map(|answer| answer.outcome.verdict().word()).collect();
     // From -128 on, c comes back to 126 in the end.
@@ -278,16 +280,16 @@ fn the_transition_view_knows_numbers() {
 }
 
 fn bind_text(system: &System, text: &str) -> String {
-    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap();
-    bind(&requirement.formula, system, View::Transition).unwrap().text(system)
+    let formula = parse_formula(&Source::new("formula", text)).unwrap();
+    bind(&formula, system, View::Transition).unwrap().text(system)
 }
 
 #[test]
 fn an_integer_is_no_truth_value() {
     let system = counter();
     let bound = |text: &str| {
-        let requirement = parse_formula("r", &Source::new("formula", text)).unwrap();
-        bind(&requirement.formula, &system, View::Scan).map_err(|errors| (errors[0].code.id(), errors[0].help.join("")))
+        let formula = parse_formula(&Source::new("formula", text)).unwrap();
+        bind(&formula, &system, View::Scan).map_err(|errors| (errors[0].code.id(), errors[0].help.join("")))
     };
     let expected = Err(("E0503", "compare it with something, like `c != 0`".to_owned()));
     assert_eq!(bound("AG c"), expected);

@@ -120,6 +120,6 @@ pub fn system(text: &str) -> System {
 
 /// A formula over the variables of a program, for the scan view.
 pub fn formula(text: &str, system: &System) -> Bound {
-    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
-    bind(&requirement.formula, system, View::Scan).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+    let formula = parse_formula(&Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+    bind(&formula, system, View::Scan).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use petril::exchange::json;
-use petril::logic::{self, Bound, Requirement, representatives};
+use petril::logic::{self, Assumption, Demand, Requirement, representatives};
 use petril::translate::System;
 use petril::verdict::{Options, Verdict, check};
 
@@ -11,7 +11,7 @@ use super::args::{Check, View};
 use super::console::Console;
 use super::input::Program;
 use super::progress::Watcher;
-use super::requirements::Asked;
+use super::requirements::{Asked, Bound};
 use super::{Failure, Outcome, input, report};
 
 pub fn run(arguments: &Check, console: &Console) -> Outcome {
@@ -23,14 +23,19 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let (Program { flat: program, source }, plant) =
-        input::parts(&arguments.program, &arguments.plant, &arguments.meaning.reading, console)?;
+    let source = input::source(&arguments.program, input::MAX_TEXT, console)?;
     let mut asked = Asked::read(arguments, console)?;
+    asked.read_comments(&source);
+    let mut reading = arguments.meaning.reading.clone();
+    reading.scan_time = reading.scan_time.or(asked.scan_time());
+    let mut plants = arguments.plant.clone();
+    plants.extend(asked.plants());
+    let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     let domains = asked.domains(&program, &plant);
     let mut system = System::with_domains(program, plant, domains);
-    let requirements = asked.requirements(&system, view, console)?;
+    let Bound { requirements, assumptions } = asked.bind(&system, view, console)?;
     if view == logic::View::Scan {
-        system = with_representatives(system, &requirements);
+        system = with_representatives(system, &requirements, &assumptions);
     }
     let watcher = Watcher::new(&arguments.limits)?;
     let options = Options {
@@ -38,8 +43,9 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         fair: arguments.fair,
         budget: arguments.limits.budget(),
         tolerated: arguments.meaning.tolerated(),
+        assumptions,
     };
-    let result = check(&system, &requirements, options, &mut |progress| watcher.watch(progress));
+    let result = check(&system, &requirements, &options, &mut |progress| watcher.watch(progress));
     watcher.finish();
     if arguments.json {
         console.print_json(json::report(&system, &result, source.name()))?;
@@ -55,8 +61,9 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
 }
 
 /// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.
-fn with_representatives(system: System, requirements: &[(Requirement, Bound)]) -> System {
-    let formulas: Vec<&Bound> = requirements.iter().map(|(_, formula)| formula).collect();
+fn with_representatives(system: System, asked: &[(Requirement, Demand)], assumptions: &[Assumption]) -> System {
+    let asked = asked.iter().filter_map(|(_, demand)| demand.formula());
+    let formulas: Vec<_> = asked.chain(assumptions.iter().map(|assumption| &assumption.formula)).collect();
     let mut found = representatives(&system, &formulas);
     if found.is_empty() {
         return system;

@@ -67,7 +67,11 @@ pub struct Program {
 
 /// Reads a program, or the unit that is asked for. Its diagnostics are printed, warnings too.
 pub fn program(path: &Path, reading: &Reading, console: &Console) -> Result<Program, Failure> {
-    let source = source(path, MAX_TEXT, console)?;
+    program_of(source(path, MAX_TEXT, console)?, reading, console)
+}
+
+/// The same of a text that was read already.
+pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Result<Program, Failure> {
     let (unit, mut diagnostics) = syntax::parse(&source);
     if reading.strict {
         diagnostics.extend(semantics::strict(&source, &unit));
@@ -135,7 +139,17 @@ pub fn parts<P: AsRef<Path>>(
     reading: &Reading,
     console: &Console,
 ) -> Result<(Program, Plant), Failure> {
-    let program = program(path, reading, console);
+    parts_of(source(path, MAX_TEXT, console)?, plants, reading, console)
+}
+
+/// The same where the text of the program was read already.
+pub fn parts_of<P: AsRef<Path>>(
+    source: Source,
+    plants: &[P],
+    reading: &Reading,
+    console: &Console,
+) -> Result<(Program, Plant), Failure> {
+    let program = program_of(source, reading, console);
     // Every file is read before anything is given up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| safe_net(plant.as_ref(), console)).collect();
     let program = program?;

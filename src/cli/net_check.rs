@@ -93,9 +93,8 @@ fn questions(
     let by_name = Nodes::by_name(&located.net);
     for text in &arguments.formula {
         let source = Source::new("formula", text.as_str());
-        let bound = parse_formula("formula", &source)
-            .map_err(|error| vec![error])
-            .and_then(|parsed| bind_in_net(&parsed.formula, &by_name));
+        let bound =
+            parse_formula(&source).map_err(|error| vec![error]).and_then(|parsed| bind_in_net(&parsed, &by_name));
         match bound {
             Ok(bound) => {
                 names.push(text.clone());

@@ -1,13 +1,15 @@
-//! Requirements and domains in, from files and from the command line.
+//! What is asked, and what is assumed, from files, from the command line, and from the comments of a program.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::flat::FlatProgram;
 use petril::logic::{
-    Bound, Requirement, RequirementFile, View, bind, bind_domain, parse_domain, parse_formula, parse_requirements,
+    Assumption, Demand, Requirement, RequirementFile, View, bind_assumption, bind_domain, bind_requirement,
+    parse_domain, parse_requirement, parse_requirements,
 };
 use petril::source::Source;
+use petril::syntax;
 use petril::translate::{Domains, Plant, System};
 
 use super::Failure;
@@ -28,37 +30,74 @@ pub struct Asked {
     failed: bool,
 }
 
+/// What is asked of a system, and what is assumed of it.
+pub struct Bound {
+    pub requirements: Vec<(Requirement, Demand)>,
+    pub assumptions: Vec<Assumption>,
+}
+
 impl Asked {
-    /// Reads the domains, formulas and requirement files of a command.
+    /// Reads the domains, requirements and requirement files of a command.
     pub fn read(arguments: &Check, console: &Console) -> Result<Self, Failure> {
         let mut asked = Self { texts: Vec::new(), failed: false };
         for (i, text) in arguments.domain.iter().enumerate() {
             let source = Source::new(format!("domain {}", i + 1), text.as_str());
             let (domains, diagnostics) = split(parse_domain(&source));
-            asked.texts.push(Text { file: RequirementFile { requirements: vec![], domains }, diagnostics, source });
+            asked.texts.push(Text { file: RequirementFile { domains, ..Default::default() }, diagnostics, source });
         }
-        for (i, formula) in arguments.requirement.iter().enumerate() {
+        for (i, text) in arguments.requirement.iter().enumerate() {
             let name = format!("r{}", i + 1);
-            let source = Source::new(format!("formula {name}"), formula.as_str());
-            let (requirements, diagnostics) = split(parse_formula(&name, &source));
-            asked.texts.push(Text { file: RequirementFile { requirements, domains: vec![] }, diagnostics, source });
+            let source = Source::new(format!("formula {name}"), text.as_str());
+            let (requirements, diagnostics) = split(parse_requirement(&name, &source));
+            asked.texts.push(Text {
+                file: RequirementFile { requirements, ..Default::default() },
+                diagnostics,
+                source,
+            });
         }
         for file in &arguments.require {
-            asked.read_file(file, console)?;
+            match source(file, MAX_TEXT, console) {
+                Ok(source) => asked.read_text(source),
+                Err(Failure::Reported) => asked.failed = true,
+                Err(failure) => return Err(failure),
+            }
         }
         Ok(asked)
     }
 
-    fn read_file(&mut self, path: &Path, console: &Console) -> Result<(), Failure> {
-        match source(path, MAX_TEXT, console) {
-            Ok(source) => {
-                let (file, diagnostics) = parse_requirements(&source);
-                self.texts.push(Text { file, diagnostics, source });
-            }
-            Err(Failure::Reported) => self.failed = true,
-            Err(failure) => return Err(failure),
+    /// Reads what stands in the comments of a program.
+    pub fn read_comments(&mut self, program: &Source) {
+        if let Some(text) = syntax::requirements_in_comments(program.text()) {
+            self.read_text(Source::new(program.name().to_owned(), text));
         }
-        Ok(())
+    }
+
+    fn read_text(&mut self, source: Source) {
+        let (file, diagnostics) = parse_requirements(&source);
+        self.texts.push(Text { file, diagnostics, source });
+    }
+
+    /// The plants that files name, as paths from where the program runs.
+    pub fn plants(&self) -> Vec<PathBuf> {
+        let of_text = |text: &Text| {
+            let folder = Path::new(text.source.name()).parent().unwrap_or(Path::new("")).to_owned();
+            text.file.plants.iter().map(move |plant| folder.join(&plant.path)).collect::<Vec<_>>()
+        };
+        self.texts.iter().flat_map(of_text).collect()
+    }
+
+    /// The time from one scan to the next that files give. A second one is reported with the requirements.
+    pub fn scan_time(&mut self) -> Option<u64> {
+        let mut first: Option<u64> = None;
+        for text in &mut self.texts {
+            let Some((time, span)) = text.file.scan_time else { continue };
+            if first.is_some_and(|first| first != time) {
+                let message = "another scan time was given already";
+                text.diagnostics.push(Diagnostic::new(Code::RequirementSyntax, span, message).help("give one"));
+            }
+            first.get_or_insert(time);
+        }
+        first
     }
 
     /// The domains of a program's free inputs. What is wrong with them is reported with the requirements.
@@ -71,19 +110,21 @@ impl Asked {
         domains
     }
 
-    /// The requirements, bound.
-    pub fn requirements(
-        self,
-        system: &System,
-        view: View,
-        console: &Console,
-    ) -> Result<Vec<(Requirement, Bound)>, Failure> {
+    /// Everything else, bound.
+    pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
-        let mut bound: Vec<(Requirement, Bound)> = Vec::new();
+        let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new() };
         for Text { file, mut diagnostics, source } in self.texts {
-            let others = bound.len();
+            for assumption in &file.assumptions {
+                match bind_assumption(assumption, system, view) {
+                    Ok(assumption) => bound.assumptions.push(assumption),
+                    Err(errors) => diagnostics.extend(errors),
+                }
+            }
+            let others = bound.requirements.len();
             for requirement in file.requirements {
-                if bound[..others].iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
+                let known = &bound.requirements[..others];
+                if known.iter().any(|(other, _)| other.name.eq_ignore_ascii_case(&requirement.name)) {
                     let message = format!("a requirement named `{}` was given already", requirement.name);
                     let help = "give each a name of its own; the formulas of `-r` are named r1, r2, …";
                     diagnostics.push(Diagnostic::new(Code::RequirementNameTwice, requirement.span, message).help(help));
@@ -91,8 +132,8 @@ impl Asked {
                 if diagnostics.len() >= MAX_DIAGNOSTICS {
                     break;
                 }
-                match bind(&requirement.formula, system, view) {
-                    Ok(formula) => bound.push((requirement, formula)),
+                match bind_requirement(&requirement, system, view) {
+                    Ok(demand) => bound.requirements.push((told(requirement, &demand, system), demand)),
                     Err(errors) => diagnostics.extend(errors),
                 }
             }
@@ -101,6 +142,18 @@ impl Asked {
             failed |= any_error(&diagnostics);
         }
         if failed { Err(Failure::Reported) } else { Ok(bound) }
+    }
+}
+
+/// A formula of a pattern that is longer says less than the pattern.
+const LONG: usize = 160;
+
+/// The requirement with the formula that its pattern stands for.
+fn told(requirement: Requirement, demand: &Demand, system: &System) -> Requirement {
+    let formula = demand.formula().filter(|_| requirement.words.is_some()).map(|formula| formula.text(system));
+    match formula.filter(|text| text.len() <= LONG) {
+        Some(text) => Requirement { text, ..requirement },
+        None => requirement,
     }
 }
 

@@ -215,6 +215,10 @@ codes! {
     RequirementView = "E0505",
     /// A domain does not fit what it is for.
     DomainUnfit = "E0506",
+    /// An assumption speaks of what cannot be assumed.
+    AssumptionUnfit = "E0507",
+    /// An assertion stands where it cannot be checked.
+    AssertionUnfit = "E0508",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

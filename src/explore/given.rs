@@ -25,7 +25,8 @@ impl ScanSpace<'_> {
     }
 
     /// The end of the scan that reads these inputs: one value for each input of the program. `None` if the system has no such
-    /// scan: a value lies outside its domain, the plant cannot give it now, or the scan ends in an error or not at all.
+    /// scan: a value lies outside its domain, the plant cannot give it now, something assumed forbids it, or the scan ends in an error or
+    /// not at all.
     #[must_use]
     pub fn scan_reading(&self, from: &Position, inputs: &[(VarId, u64)]) -> Option<Position> {
         let system = self.system();
@@ -55,6 +56,9 @@ impl ScanSpace<'_> {
         let mut machine = Machine::new(&system.program);
         machine.restore(&from.memory);
         inputs.iter().for_each(|&(input, value)| machine.set(input, value));
+        if !self.admits(&|id| from.memory[id.0], &|id| machine.value(id)) {
+            return None;
+        }
         self.scan(&mut machine).ok()?;
         let kept = |id: VarId| if system.program.variable(id).role == Role::Buffer { 0 } else { machine.value(id) };
         Some(Position { memory: (0..system.program.variables.len()).map(VarId).map(kept).collect(), plant })

@@ -28,6 +28,8 @@ pub struct Graph {
     /// States with a step that leads nowhere: of each row its first state, once for each failure; `None` stands for the
     /// initial step.
     pub(super) failures: Vec<(Option<u32>, Failure)>,
+    /// States of which not all steps are known, beside those that were not expanded and those with a step that leads nowhere.
+    pub(super) cut: Vec<u32>,
     pub(super) stop: Stop,
     pub(super) members: OnceLock<Rows<u32>>,
     pub(super) backward: OnceLock<Rows<u32>>,
@@ -61,6 +63,7 @@ impl Graph {
             targets: Vec::new(),
             levels: Vec::new(),
             failures: Vec::new(),
+            cut: Vec::new(),
             stop: Stop::Complete,
             members: OnceLock::new(),
             backward: OnceLock::new(),
@@ -150,6 +153,7 @@ impl Graph {
         open.insert_range(self.expanded()..self.len());
         let failing = self.failures.iter().filter_map(|(state, _)| self.row_of((*state)?));
         failing.flat_map(|row| self.members(row)).for_each(|&state| open.insert(state as usize));
+        self.cut.iter().for_each(|&state| open.insert(state as usize));
         open
     }
 
@@ -180,7 +184,7 @@ impl Graph {
     /// Whether every reachable state and step is in the graph.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.stop == Stop::Complete && self.failures.is_empty()
+        self.stop == Stop::Complete && self.failures.is_empty() && self.cut.is_empty()
     }
 
     /// The largest of the shortest distances from an initial state, in steps.

@@ -14,7 +14,7 @@ use super::free_inputs::FreeInputs;
 use super::graph::Graph;
 use super::layout::{Field, Layout};
 use super::scan_lanes::Lanes;
-use super::space::{Failure, StateSpace, Step, Successors};
+use super::space::{Admission, Failure, StateSpace, Step, Successors};
 use crate::flat::{Tolerated, Variable};
 use crate::interpret::Machine;
 use crate::semantics::{Role, VarId};
@@ -36,6 +36,8 @@ pub struct ScanSpace<'s> {
     relevant: Vec<u64>,
     /// The scan as gates, if that is faster.
     circuit: Option<Circuit>,
+    /// What is assumed of the inputs.
+    admission: Option<&'s dyn Admission>,
     /// The gates and the interpreter were seen to disagree.
     is_refuted: AtomicBool,
 }
@@ -70,6 +72,12 @@ impl<'s> ScanSpace<'s> {
     /// The space of a system in which some hazards are no errors.
     #[must_use]
     pub fn tolerating(system: &'s System, tolerated: Tolerated) -> Self {
+        Self::assuming(system, tolerated, None)
+    }
+
+    /// The same of scans that may begin only as something admits.
+    #[must_use]
+    pub fn assuming(system: &'s System, tolerated: Tolerated, admission: Option<&'s dyn Admission>) -> Self {
         let mut layout = Layout::new();
         let width = |markings: usize| usize::BITS - (markings - 1).leading_zeros();
         let markings = system.plant.components.iter().map(|component| component.markings.len());
@@ -79,13 +87,14 @@ impl<'s> ScanSpace<'s> {
         let variables: Vec<(VarId, Field)> = (0..).map(VarId).zip(fields).collect();
         let mut carried = system.program.carried();
         carried.extend(system.plant.tested().map(|output| output.0));
+        carried.extend(admission.iter().flat_map(|admission| admission.recalls()).map(|variable| variable.0));
         let mut relevant = vec![0; layout.words()];
         let kept = variables.iter().filter(|(variable, _)| carried.contains(variable.0)).map(|(_, field)| field);
         components.iter().chain(kept).for_each(|field| field.set(&mut relevant, u64::MAX));
         let (free_inputs, words) = (FreeInputs::new(system), layout.words());
         let circuit = Circuit::of(&system.program, tolerated, &variables, words);
         let is_refuted = AtomicBool::new(false);
-        Self { system, tolerated, components, variables, free_inputs, words, relevant, circuit, is_refuted }
+        Self { system, tolerated, components, variables, free_inputs, words, relevant, circuit, admission, is_refuted }
     }
 
     /// The system.
@@ -131,6 +140,16 @@ impl<'s> ScanSpace<'s> {
         }
     }
 
+    /// The same packed.
+    #[must_use]
+    pub fn packed_power_on(&self) -> Vec<u64> {
+        let mut state = vec![0; self.words];
+        for &(variable, field) in &self.variables {
+            field.set(&mut state, self.system.program.variable(variable).initial);
+        }
+        state
+    }
+
     fn pack(&self, plant: &[usize], value: impl Fn(VarId) -> u64, state: &mut [u64]) {
         state.fill(0);
         self.components.iter().zip(plant).for_each(|(field, &marking)| field.set(state, marking as u64));
@@ -158,6 +177,11 @@ impl<'s> ScanSpace<'s> {
                 closure.into_iter().map(|(marking, _)| marking).collect()
             })
             .collect()
+    }
+
+    /// Whether a scan may begin with these values after one that ended with those.
+    pub(super) fn admits(&self, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64) -> bool {
+        self.admission.is_none_or(|admission| admission.admits(before, now))
     }
 
     /// Runs a scan, whose inputs have been set.
@@ -191,7 +215,9 @@ impl<'s> ScanSpace<'s> {
                     component.markings[marking].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
                 }
                 setting.values().for_each(|(input, value)| machine.set(input, value));
-                visit(&mut machine, plant);
+                if self.admits(&|id| from.memory[id.0], &|id| machine.value(id)) {
+                    visit(&mut machine, plant);
+                }
             });
         });
     }
@@ -209,7 +235,9 @@ impl<'s> ScanSpace<'s> {
             }
             self.free_inputs.for_each(|setting| {
                 setting.changed().for_each(|(input, value)| field(input).set(&mut begin, value));
-                visit(&begin);
+                if self.admits(&|id| self.value(from, id), &|id| self.value(&begin, id)) {
+                    visit(&begin);
+                }
             });
         });
     }

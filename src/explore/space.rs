@@ -3,6 +3,7 @@
 use crate::flat::Hazard;
 use crate::interpret::Fault;
 use crate::net::PlaceId;
+use crate::semantics::VarId;
 
 /// A system as states and steps. A state is a vector of `u64` words, of the same length for all states.
 ///
@@ -42,6 +43,15 @@ pub trait StateSpace: Sync {
     fn refusal(&self) -> Option<String> {
         None
     }
+}
+
+/// Says which scans can begin: what inputs do not do is not explored.
+pub trait Admission: Sync {
+    /// Whether a scan may begin with these inputs. `before` gives the values of variables at the end of the scan before, `now` those
+    /// of the inputs that are read.
+    fn admits(&self, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64) -> bool;
+    /// The variables whose values before make a difference.
+    fn recalls(&self) -> Vec<VarId>;
 }
 
 /// One step.

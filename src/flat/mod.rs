@@ -42,6 +42,8 @@ pub struct FlatProgram {
     pub restrictions: BTreeMap<VarId, Restriction>,
     /// The time from one scan to the next in milliseconds, if a timer depends on it.
     pub scan_time: Option<u64>,
+    /// The same whether one does or not.
+    pub cycle: u64,
     /// Whether a timer's preset time can be anything, so that its clock stands once it has reached the one it has.
     pub presets_vary: bool,
 }

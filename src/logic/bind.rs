@@ -1,15 +1,20 @@
 //! Formulas to bound formulas: what is truth and what is number. What each name means, a vocabulary says: that of a program
 //! in one of its views, or that of a net alone.
 
+use std::sync::Arc;
+
 use super::bound::{Bound, Term};
-use super::formula::{Expression, Formula, Temporal};
+use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past as Operator, Quantifier, Temporal};
+use super::past::Past;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::net::{PlaceId, TransitionId};
+use crate::semantics::Role;
 use crate::source::Span;
 use crate::translate::System;
 
 mod nodes;
 mod program;
+mod scans;
 
 pub use nodes::Nodes;
 pub use program::View;
@@ -52,6 +57,10 @@ trait Vocabulary {
     fn place(&self, name: &Name<'_>) -> Result<PlaceId, Diagnostic>;
     /// A transition of the net.
     fn transition(&self, name: &Name<'_>) -> Result<TransitionId, Diagnostic>;
+    /// Whether states are ends of scans, so that there are scans before and after; else why there is nothing to speak of.
+    fn scans(&self, span: Span) -> Result<ScanTime, Diagnostic>;
+    /// The inputs of the program, or its outputs, as numbers.
+    fn all(&self, role: Role) -> Vec<Term>;
     /// That no transition is enabled.
     fn deadlock(&self, span: Span) -> Result<Bound, Diagnostic>;
 }
@@ -71,6 +80,10 @@ impl Name<'_> {
         diagnostic.suggest_at(self.errors, self.text, names)
     }
 }
+
+/// The time from one scan to the next, in milliseconds.
+#[derive(Clone, Copy)]
+struct ScanTime(u64);
 
 /// Where control can be; a line is counted from 1.
 #[derive(Clone, Copy)]
@@ -157,6 +170,13 @@ impl Binder<'_> {
                 let (hold, release) = two(hold, release);
                 Bound::Until { quantifier: *quantifier, weak: *weak, hold, release }
             }
+            Expression::FirstScan
+            | Expression::InputChanges
+            | Expression::OutputChanges
+            | Expression::Past(..)
+            | Expression::Held(..)
+            | Expression::Within(..)
+            | Expression::Response(..) => self.about_scans(formula),
             Expression::Number(_)
             | Expression::Tokens(_)
             | Expression::Sum(..)
@@ -193,6 +213,7 @@ impl Binder<'_> {
             }
             Expression::Name(name) => self.term(vocabulary.number(&self.name(name, span))),
             Expression::Tokens(name) => self.term(vocabulary.place(&self.name(name, span)).map(Term::Tokens)),
+            Expression::Past(Operator::Pre, of) => self.before(&of[0], span),
             _ => {
                 let truth = self.truth(formula);
                 if !truth.is_state_formula() {

@@ -1,6 +1,9 @@
 //! Formulas whose names mean something: variables, places, transitions.
 
+use std::sync::Arc;
+
 use super::formula::{Comparison, Quantifier};
+use super::past::Past;
 use crate::net::{PlaceId, TransitionId};
 use crate::semantics::{Type, VarId};
 
@@ -11,6 +14,8 @@ pub enum Bound {
     Truth(bool),
     /// The variable, a `BOOL`, is TRUE.
     Variable(VarId),
+    /// A bit of the variable, counted from 0, is 1.
+    Bit(VarId, u32),
     /// The place is marked.
     Marked(PlaceId),
     /// The transition is enabled.
@@ -60,6 +65,8 @@ pub enum Term {
     },
     /// How many tokens the place holds.
     Tokens(PlaceId),
+    /// What is known of earlier scans; a truth value counts as 0 or 1.
+    Past(Arc<Past>),
     /// 1 if the formula, which is not temporal, holds; else 0.
     Truth(Box<Bound>),
     /// Sum.
@@ -74,6 +81,11 @@ pub enum Term {
 pub trait Valuation {
     /// The value of a variable, as a pattern of its type.
     fn value(&self, variable: VarId) -> u64;
+    /// What is known of earlier scans. Who knows nothing of them is never asked.
+    fn past(&self, past: &Past) -> i128 {
+        debug_assert!(false, "nothing is remembered here: {past:?}");
+        0
+    }
     /// Whether a place is marked.
     fn is_marked(&self, place: PlaceId) -> bool;
     /// How many tokens a place holds.
@@ -91,6 +103,7 @@ impl Bound {
         match self {
             Self::Truth(_)
             | Self::Variable(_)
+            | Self::Bit(..)
             | Self::Marked(_)
             | Self::Enabled(_)
             | Self::Deadlock
@@ -106,7 +119,7 @@ impl Bound {
     /// Shows every place whose tokens it speaks of, as often as it does.
     pub fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
         match self {
-            Self::Truth(_) | Self::Variable(_) | Self::Enabled(_) | Self::Deadlock => {}
+            Self::Truth(_) | Self::Variable(_) | Self::Bit(..) | Self::Enabled(_) | Self::Deadlock => {}
             Self::Marked(place) => visit(*place),
             Self::Compare(_, left, right) => {
                 left.for_each_place(visit);
@@ -129,6 +142,7 @@ impl Bound {
         Some(match self {
             Self::Truth(value) => *value,
             Self::Variable(variable) => state.value(*variable) == 1,
+            Self::Bit(variable, bit) => state.value(*variable) >> bit & 1 == 1,
             Self::Marked(place) => state.is_marked(*place),
             Self::Enabled(transition) => state.is_enabled(*transition),
             Self::Deadlock => state.is_deadlock(),
@@ -144,7 +158,8 @@ impl Bound {
 }
 
 impl Term {
-    fn value_in(&self, state: &impl Valuation) -> Option<i128> {
+    /// The number in a state. `None` if one state does not tell, since a part is temporal.
+    pub fn value_in(&self, state: &impl Valuation) -> Option<i128> {
         Some(match self {
             Self::Number(number) => *number,
             Self::Variable(variable, ty) => ty.number(state.value(*variable)),
@@ -152,6 +167,7 @@ impl Term {
                 places.iter().filter(|(place, _)| state.is_marked(*place)).map(|(_, weight)| weight).sum()
             }
             Self::Tokens(place) => i128::from(state.tokens(*place)),
+            Self::Past(past) => state.past(past),
             Self::Truth(f) => i128::from(f.holds_in(state)?),
             Self::Sum(a, b) => a.value_in(state)? + b.value_in(state)?,
             Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
@@ -161,7 +177,7 @@ impl Term {
 
     fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
         match self {
-            Self::Number(_) | Self::Variable(..) => {}
+            Self::Number(_) | Self::Variable(..) | Self::Past(_) => {}
             Self::Bits { places, .. } => places.iter().for_each(|&(place, _)| visit(place)),
             Self::Tokens(place) => visit(*place),
             Self::Truth(f) => f.for_each_place(visit),
@@ -181,6 +197,7 @@ impl Term {
             Self::Bits { places, .. } => Some(places.iter().map(|(_, weight)| weight.unsigned_abs()).sum()),
             Self::Tokens(_) => Some(u128::from(u64::MAX)),
             Self::Truth(_) => Some(1),
+            Self::Past(past) => Some(past.magnitude()),
             Self::Sum(a, b) | Self::Difference(a, b) => a.magnitude()?.checked_add(b.magnitude()?),
             Self::Product(a, b) => a.magnitude()?.checked_mul(b.magnitude()?),
         };

@@ -28,6 +28,20 @@ pub enum Expression {
     AtEnd,
     /// `at deadlock`: no transition is enabled.
     Deadlock,
+    /// `at first scan`: no scan came before this one.
+    FirstScan,
+    /// Some input has another value than at the end of the scan before.
+    InputChanges,
+    /// Some output has.
+    OutputChanges,
+    /// `pre(f)` and its like: about this scan and those before it.
+    Past(Past, Vec<Formula>),
+    /// `held(f, t)`: f is true, and was at the ends of all scans in the time t before.
+    Held(Box<Formula>, Duration),
+    /// `f within t`: f is true now, or will be at the end of one of the scans in the time t that comes.
+    Within(Box<Formula>, Duration),
+    /// Always, if the first is true, the second is true within the time.
+    Response(Box<Formula>, Box<Formula>, Duration),
     /// `marked("place")`
     Marked(String),
     /// `tokens("place")`: how many tokens the place holds.
@@ -65,6 +79,69 @@ pub enum Expression {
         /// g
         release: Box<Formula>,
     },
+}
+
+/// The operators that look back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Past {
+    /// `pre(f)`: what f was at the end of the scan before; in the first scan, at power-on.
+    Pre,
+    /// `rising(f)`: f is true and was not before.
+    Rising,
+    /// `falling(f)`: f was true before and is not.
+    Falling,
+    /// `changed(f)`: f has another value than before.
+    Changed,
+    /// `once(f)`: f is true, or was at the end of some scan.
+    Once,
+    /// `so_far(f)`: f is true, and was at the ends of all scans.
+    SoFar,
+    /// `since(f, g)`: g is or was true, and f has been true ever since.
+    Since,
+}
+
+impl Past {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Pre, Self::Rising, Self::Falling, Self::Changed, Self::Once, Self::SoFar, Self::Since];
+
+    /// As it is written.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pre => "pre",
+            Self::Rising => "rising",
+            Self::Falling => "falling",
+            Self::Changed => "changed",
+            Self::Once => "once",
+            Self::SoFar => "so_far",
+            Self::Since => "since",
+        }
+    }
+
+    /// How many formulas it takes.
+    #[must_use]
+    pub fn arity(self) -> usize {
+        if self == Self::Since { 2 } else { 1 }
+    }
+}
+
+/// How long, and where that stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Duration {
+    /// In scans, or in milliseconds.
+    pub amount: Amount,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A number of scans, or of milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Amount {
+    /// Scans.
+    Scans(u32),
+    /// Milliseconds.
+    Milliseconds(u64),
 }
 
 /// On all paths, or on some path.

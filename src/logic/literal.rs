@@ -32,6 +32,12 @@ pub fn number(text: &str) -> Result<i128, String> {
     if fits { Ok(number) } else { Err(too_large()) }
 }
 
+/// The literal of a time whose `T#` may have been left out.
+#[must_use]
+pub fn time(text: &str) -> String {
+    if text.contains('#') { text.to_owned() } else { format!("T#{text}") }
+}
+
 fn is_digits(text: &str) -> bool {
     text.trim_start_matches('-').bytes().all(|byte| byte.is_ascii_digit())
 }

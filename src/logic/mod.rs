@@ -5,9 +5,11 @@
 //! ```
 
 mod along;
+mod assumption;
 mod bind;
 mod bound;
 mod dag;
+mod demand;
 mod domain;
 mod evidence;
 mod formula;
@@ -15,6 +17,7 @@ mod label;
 mod literal;
 mod mentions;
 mod parse;
+mod past;
 mod representatives;
 mod simplify;
 mod sweep;
@@ -23,16 +26,22 @@ mod vacuity;
 mod valuations;
 
 pub use along::along;
+pub use assumption::{Assumed, Assumption, bind_assumption};
 pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
+pub use demand::{Demand, bind_requirement};
 pub use domain::{DomainText, bind_domain};
 pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
-pub use formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;
 pub use mentions::Mentions;
-pub use parse::{Origin, Requirement, RequirementFile, Tag, parse_domain, parse_formula, parse_requirements};
+pub use parse::{
+    AssertionText, AssumptionText, Body, Origin, PlantText, Requirement, RequirementFile, Tag, parse_domain,
+    parse_formula, parse_requirement, parse_requirements,
+};
+pub use past::{History, Past, remembered};
 pub use representatives::representatives;
 pub use vacuity::{Premise, Step, premises};
-pub use valuations::{MarkingValuation, ScanValuation};
+pub use valuations::{MarkingValuation, Remembering, ScanValuation};

@@ -9,14 +9,16 @@ use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
 
 use super::domain::DomainText;
-use super::formula::{Comparison, Expression, Formula, Quantifier, Temporal};
+use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Quantifier, Temporal};
 use super::literal;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{Source, Span};
 
 mod file;
+mod patterns;
 
-pub use file::{RequirementFile, parse_domain, parse_requirements};
+pub use file::{AssertionText, AssumptionText, PlantText, RequirementFile, parse_domain, parse_requirements};
+pub use patterns::Body;
 
 #[derive(Parser)]
 #[grammar = "../grammar/requirement.pest"]
@@ -36,9 +38,9 @@ pub struct Requirement {
     pub words: Option<String>,
     /// What else its author says of it: `safety: SF1`, `severity: high`.
     pub tags: Vec<Tag>,
-    /// The formula.
-    pub formula: Formula,
-    /// The formula as it was written, on one line.
+    /// What it asks for.
+    pub body: Body,
+    /// The same as it was written, on one line.
     pub text: String,
     /// Where its name stands, or the formula if it has none.
     pub span: Span,
@@ -75,32 +77,36 @@ impl Origin {
     }
 }
 
-/// Reads a text that is one formula, which becomes the requirement of that name.
+/// Reads a text that is one formula, pattern or sentence, which becomes the requirement of that name.
+///
+/// # Errors
+/// What keeps the text from being one.
+pub fn parse_requirement(name: &str, source: &Source) -> Result<Requirement, Diagnostic> {
+    let pair = lone(source, Rule::lone_body, Rule::body)?;
+    let (span, text) = (span(&pair), one_line(pair.as_str()));
+    let (body, words) = patterns::body(pair)?;
+    let origin = Origin::of(span, source);
+    Ok(Requirement { name: name.to_owned(), sentence: None, words, tags: Vec::new(), body, text, span, origin })
+}
+
+/// Reads a text that is one formula.
 ///
 /// # Errors
 /// What keeps the text from being a formula.
-pub fn parse_formula(name: &str, source: &Source) -> Result<Requirement, Diagnostic> {
+pub fn parse_formula(source: &Source) -> Result<Formula, Diagnostic> {
+    checked_formula(lone(source, Rule::lone_formula, Rule::formula)?)
+}
+
+/// The first pair of a rule in a text that is all of another one.
+fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diagnostic> {
     let text = source.text();
-    let pairs = RequirementParser::parse(Rule::lone_formula, text).map_err(|error| {
+    let pairs = RequirementParser::parse(whole, text).map_err(|error| {
         let diagnostic = diagnostic(&error, text, 0);
         let help = "a formula is like `AG (a & !b -> c)`";
         if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
     })?;
-    let mut formulas = pairs.flatten().filter(|pair| pair.as_rule() == Rule::formula);
-    let Some(pair) = formulas.next() else {
-        return Err(Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"));
-    };
-    let (span, text) = (span(&pair), one_line(pair.as_str()));
-    Ok(Requirement {
-        name: name.to_owned(),
-        sentence: None,
-        words: None,
-        tags: Vec::new(),
-        formula: checked_formula(pair)?,
-        text,
-        span,
-        origin: Origin::of(span, source),
-    })
+    let mut parts = pairs.flatten().filter(|pair| pair.as_rule() == part);
+    parts.next().ok_or_else(|| Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"))
 }
 
 /// The formula of a pair of the rule `formula`, unless it is too large.
@@ -120,6 +126,7 @@ static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
         .op(Op::infix(Rule::implies, Assoc::Right))
         .op(left(Rule::or))
         .op(left(Rule::and))
+        .op(Op::postfix(Rule::within))
         .op(left(Rule::equal)
             | left(Rule::unequal)
             | left(Rule::less)
@@ -168,7 +175,39 @@ fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
             };
             Ok(Formula { expression, span })
         })
+        .map_postfix(|operand, within| {
+            let operand = operand?;
+            let whole = operand.span.to(span(&within));
+            let duration = part(&within, Rule::duration).map_or_else(|| Err(missing(whole)), |d| duration(&d))?;
+            Ok(Formula { expression: Expression::Within(Box::new(operand), duration), span: whole })
+        })
         .parse(pairs)
+}
+
+/// The first part of a pair that is of a rule.
+fn part<'i>(pair: &Pair<'i, Rule>, rule: Rule) -> Option<Pair<'i, Rule>> {
+    pair.clone().into_inner().find(|part| part.as_rule() == rule)
+}
+
+fn missing(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::RequirementSyntax, span, "something is missing here")
+}
+
+/// `3 scans`, `T#500ms`, `500ms`
+fn duration(pair: &Pair<'_, Rule>) -> Result<Duration, Diagnostic> {
+    let span = span(pair);
+    let text = pair.as_str();
+    let unfit = |message: String| {
+        Diagnostic::new(Code::RequirementSyntax, span, message).help("write it like `3 scans` or `T#1s500ms`")
+    };
+    let amount = match part(pair, Rule::scans).and_then(|scans| part(&scans, Rule::count)) {
+        Some(count) => Amount::Scans(count.as_str().parse().map_err(|_| unfit("this number is too large".to_owned()))?),
+        None => {
+            let number = literal::number(&literal::time(text)).map_err(unfit)?;
+            Amount::Milliseconds(u64::try_from(number).map_err(|_| unfit("this is no time from now on".to_owned()))?)
+        }
+    };
+    Ok(Duration { amount, span })
 }
 
 fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
@@ -178,7 +217,20 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
         Diagnostic::new(Code::RequirementSyntax, span, "this number is too large").help("numbers have up to 64 bits")
     };
     let expression = match pair.as_rule() {
-        Rule::group => return pair.into_inner().next().map_or_else(|| Err(too_large()), |p| formula(p.into_inner())),
+        Rule::group => {
+            let parts: Vec<_> = pair.into_inner().filter(|part| part.as_rule() == Rule::formula).collect();
+            let mut parts = parts.into_iter().map(|part| formula(part.into_inner())).collect::<Result<Vec<_>, _>>()?;
+            match parts.len() {
+                1 => return Ok(parts.remove(0)),
+                _ => Expression::Past(Past::Since, parts),
+            }
+        }
+        Rule::call => call(pair)?,
+        Rule::held => {
+            let (of, time) = (part(&pair, Rule::formula), part(&pair, Rule::duration));
+            let (Some(of), Some(time)) = (of, time) else { return Err(missing(span)) };
+            Expression::Held(Box::new(formula(of.into_inner())?), duration(&time)?)
+        }
         Rule::number if is_truth(text) => Expression::Truth(constant(&pair)? == 1),
         Rule::number => Expression::Number(constant(&pair)?),
         Rule::truth => Expression::Truth(text.eq_ignore_ascii_case("TRUE")),
@@ -189,6 +241,7 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
             }
             Some(spot) if spot.as_str().eq_ignore_ascii_case("idle") => Expression::AtIdle,
             Some(spot) if spot.as_str().eq_ignore_ascii_case("deadlock") => Expression::Deadlock,
+            Some(spot) if spot.as_str().to_ascii_lowercase().starts_with("first") => Expression::FirstScan,
             _ => Expression::AtEnd,
         },
         rule @ (Rule::marked | Rule::tokens | Rule::enabled) => {
@@ -202,6 +255,28 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
         _ => Expression::Name(name_of(&pair)),
     };
     Ok(Formula { expression, span })
+}
+
+/// `pre(f)`, `since(f, g)`
+fn call(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
+    let place = span(&pair);
+    let mut parts = pair.into_inner();
+    let Some(called) = parts.next() else { return Err(missing(place)) };
+    let name = called.as_str();
+    let Some(past) = Past::ALL.into_iter().find(|past| past.name().eq_ignore_ascii_case(name)) else {
+        let names = Past::ALL.iter().map(|past| past.name()).chain(["held"]).chain(patterns::names());
+        let message = format!("there is no operator `{name}`");
+        return Err(Diagnostic::new(Code::RequirementSyntax, span(&called), message).suggest(name, names));
+    };
+    let arguments = parts.filter(|part| part.as_rule() == Rule::formula).map(|part| formula(part.into_inner()));
+    let arguments = arguments.collect::<Result<Vec<_>, _>>()?;
+    if arguments.len() != past.arity() {
+        let like = if past.arity() == 2 { "(p, q)" } else { "(p)" };
+        let message = format!("`{}` takes another number of arguments", past.name());
+        let help = format!("write it like `{}{like}`", past.name());
+        return Err(Diagnostic::new(Code::RequirementSyntax, place, message).help(help));
+    }
+    Ok(Expression::Past(past, arguments))
 }
 
 /// The name of a variable, spelt as flat code does: `a[1,2]`.
@@ -284,6 +359,12 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::EOI => "the end",
         Rule::keyword => "`requirement`",
         Rule::domain_word => "`domain`",
+        Rule::assume_word => "`assume`",
+        Rule::plant_word => "`plant`",
+        Rule::scan_word => "`scan time`",
+        Rule::assert_word => "`assert`",
+        Rule::duration | Rule::scans | Rule::time | Rule::count => "a time or a number of scans",
+        Rule::word | Rule::tag => "a word",
         Rule::range | Rule::based => "a number",
         Rule::identifier => "a name",
         Rule::sentence | Rule::quoted => "a text in quotes",
@@ -295,7 +376,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::close_group => "`)`",
         Rule::close_until => "`]`",
         Rule::line => "a line number",
-        Rule::spot => "`line`, `idle`, `End` or `deadlock`",
+        Rule::spot => "`line`, `idle`, `End`, `deadlock` or `first scan`",
         _ => return None,
     })
 }

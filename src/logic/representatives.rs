@@ -6,6 +6,7 @@
 
 use super::bound::{Bound, Term};
 use super::formula::Comparison;
+use super::past::Past;
 use crate::flat::{Cuts, FlatProgram};
 use crate::semantics::VarId;
 use crate::translate::{Domain, Domains, System};
@@ -49,11 +50,11 @@ fn domain(program: &FlatProgram, input: VarId, cuts: &Cuts) -> Option<Domain> {
 fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
     match formula {
         Bound::Truth(_) | Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => true,
-        Bound::Variable(variable) => *variable != input,
+        Bound::Variable(variable) | Bound::Bit(variable, _) => *variable != input,
         Bound::Compare(comparison, left, right) => {
             let compared = match (left, right) {
-                (Term::Variable(variable, _), other) if *variable == input => Some((*comparison, other)),
-                (other, Term::Variable(variable, _)) if *variable == input => Some((mirrored(*comparison), other)),
+                (term, other) if is_input(term, input) => Some((*comparison, other)),
+                (other, term) if is_input(term, input) => Some((mirrored(*comparison), other)),
                 _ => None,
             };
             match compared {
@@ -75,12 +76,27 @@ fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
     }
 }
 
+/// Whether a term is what the input is now, or was before: both are told apart by the same comparisons.
+fn is_input(term: &Term, input: VarId) -> bool {
+    match term {
+        Term::Variable(variable, _) => *variable == input,
+        Term::Past(past) => matches!(&**past, Past::Before(before) if is_input(before, input)),
+        _ => false,
+    }
+}
+
 /// The same of a number that is not the input itself.
 fn add_term(term: &Term, input: VarId, cuts: &mut Cuts) -> bool {
     match term {
         Term::Number(_) | Term::Tokens(_) => true,
         Term::Variable(variable, _) | Term::Bits { variable, .. } => *variable != input,
         Term::Truth(f) => add(f, input, cuts),
+        Term::Past(past) => match &**past {
+            Past::First => true,
+            Past::Before(term) => add_term(term, input, cuts),
+            Past::Since(f, g) => add(f, input, cuts) && add(g, input, cuts),
+            Past::Run { of, .. } => add(of, input, cuts),
+        },
         Term::Sum(a, b) | Term::Difference(a, b) | Term::Product(a, b) => {
             add_term(a, input, cuts) && add_term(b, input, cuts)
         }
@@ -91,7 +107,7 @@ fn add_term(term: &Term, input: VarId, cuts: &mut Cuts) -> bool {
 fn constant(term: &Term) -> Option<i128> {
     match term {
         Term::Number(number) => Some(*number),
-        Term::Variable(..) | Term::Bits { .. } | Term::Tokens(_) | Term::Truth(_) => None,
+        Term::Variable(..) | Term::Bits { .. } | Term::Tokens(_) | Term::Truth(_) | Term::Past(_) => None,
         Term::Sum(a, b) => constant(a)?.checked_add(constant(b)?),
         Term::Difference(a, b) => constant(a)?.checked_sub(constant(b)?),
         Term::Product(a, b) => constant(a)?.checked_mul(constant(b)?),

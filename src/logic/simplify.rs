@@ -11,7 +11,12 @@ impl Bound {
     #[must_use]
     pub fn simplified(self) -> Self {
         match self {
-            Self::Truth(_) | Self::Variable(_) | Self::Marked(_) | Self::Enabled(_) | Self::Deadlock => self,
+            Self::Truth(_)
+            | Self::Variable(_)
+            | Self::Bit(..)
+            | Self::Marked(_)
+            | Self::Enabled(_)
+            | Self::Deadlock => self,
             Self::Compare(comparison, left, right) => compare(comparison, left.simplified(), right.simplified()),
             Self::Not(f) => not(f.simplified()),
             Self::And(f, g) => match (f.simplified(), g.simplified()) {
@@ -100,7 +105,7 @@ impl Term {
     fn simplified(self) -> Self {
         let two = |a: Box<Self>, b: Box<Self>| (Box::new(a.simplified()), Box::new(b.simplified()));
         let term = match self {
-            Self::Number(_) | Self::Variable(..) | Self::Bits { .. } | Self::Tokens(_) => self,
+            Self::Number(_) | Self::Variable(..) | Self::Bits { .. } | Self::Tokens(_) | Self::Past(_) => self,
             Self::Truth(f) => Self::Truth(Box::new(f.simplified())),
             Self::Sum(a, b) => {
                 let (a, b) = two(a, b);
@@ -137,6 +142,10 @@ impl Term {
                 (weights().filter(|&weight| weight < 0).sum(), weights().filter(|&weight| weight > 0).sum())
             }
             Self::Tokens(_) => (0, u64::MAX.into()),
+            Self::Past(past) => {
+                let magnitude = i128::try_from(past.magnitude()).ok()?;
+                (-magnitude, magnitude)
+            }
             Self::Truth(f) => match **f {
                 Bound::Truth(value) => (value.into(), value.into()),
                 _ => (0, 1),
@@ -176,8 +185,8 @@ mod tests {
             ("D", "at deadlock"),
         ];
         let long = letters.iter().fold(text.to_owned(), |text, (short, long)| text.replace(short, long));
-        let requirement = parse_formula("r", &Source::new("formula", long)).unwrap();
-        let bound = bind_in_net(&requirement.formula, &Nodes::by_name(&net)).unwrap();
+        let requirement = parse_formula(&Source::new("formula", long)).unwrap();
+        let bound = bind_in_net(&requirement, &Nodes::by_name(&net)).unwrap();
         let text = bound.simplified().text_in_net(&net);
         letters.iter().fold(text, |text, (short, long)| text.replace(long, short))
     }

@@ -3,6 +3,7 @@
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
 use super::formula::{Comparison, Quantifier};
+use super::past::Past;
 use crate::flat::value_text;
 use crate::net::{Net, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
@@ -93,9 +94,17 @@ impl Bound {
         match self {
             Self::Truth(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),
             Self::Variable(variable) => words.variable(*variable),
+            Self::Bit(variable, bit) => format!("{}.{bit}", words.variable(*variable)),
             Self::Marked(place) => words.marked(*place),
             Self::Enabled(transition) => words.enabled(*transition),
             Self::Deadlock => "at deadlock".to_owned(),
+            Self::Compare(Comparison::Unequal, Term::Past(past), Term::Number(0)) if past.is_truth() => past.set(words),
+            Self::Compare(Comparison::AtLeast, Term::Past(past), Term::Number(n)) if past.is_run_of(*n) => {
+                past.set(words)
+            }
+            Self::Compare(Comparison::Unequal, now, Term::Past(past)) if **past == Past::Before(now.clone()) => {
+                format!("changed({})", now.set(words, Strength::Iff))
+            }
             Self::Compare(comparison, left, right) => {
                 let sign = match comparison {
                     Comparison::Equal => "=",
@@ -159,10 +168,34 @@ impl Term {
             Self::Number(number) => number.to_string(),
             Self::Variable(variable, _) | Self::Bits { variable, .. } => words.variable(*variable),
             Self::Tokens(place) => words.tokens(*place),
+            Self::Past(past) => past.set(words),
             Self::Truth(f) => f.set(words, Strength::Prefix),
             Self::Sum(a, b) => two(a, "+", b, Strength::Sum),
             Self::Difference(a, b) => two(a, "-", b, Strength::Sum),
             Self::Product(a, b) => two(a, "*", b, Strength::Product),
+        }
+    }
+}
+
+impl Past {
+    /// Whether it counts to this number and no further.
+    fn is_run_of(&self, n: i128) -> bool {
+        matches!(self, Self::Run { most, .. } if i128::from(*most) == n)
+    }
+
+    /// As a truth value, if it stands for one.
+    fn set(&self, words: Words<'_>) -> String {
+        match self {
+            Self::First => "at first scan".to_owned(),
+            Self::Before(Term::Truth(f)) => format!("pre({})", f.set(words, Strength::Iff)),
+            Self::Before(term) => format!("pre({})", term.set(words, Strength::Iff)),
+            Self::Since(Bound::Truth(true), g) => format!("once({})", g.set(words, Strength::Iff)),
+            Self::Since(f, g) => format!("({} since {})", f.set(words, Strength::Iff), g.set(words, Strength::Iff)),
+            Self::Run { of, most } => {
+                let scans = most.saturating_sub(1);
+                let unit = if scans == 1 { "scan" } else { "scans" };
+                format!("held({}, {scans} {unit})", of.set(words, Strength::Iff))
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 //! What packed states say of atoms, in both views.
 
 use super::bound::Valuation;
-use crate::explore::{Markings, ScanSpace};
+use super::past::{History, Past, remembered};
+use crate::explore::{Markings, Observer, ScanSpace};
 use crate::net::{PlaceId, TransitionId};
 use crate::semantics::VarId;
 
@@ -27,6 +28,90 @@ impl Valuation for ScanValuation<'_> {
 
     fn is_deadlock(&self) -> bool {
         false
+    }
+}
+
+/// A packed scan state beside what is remembered of those before it.
+pub struct RememberingValuation<'a> {
+    /// The space of the state.
+    pub space: &'a ScanSpace<'a>,
+    /// The state.
+    pub state: &'a [u64],
+    /// What is remembered.
+    pub history: &'a History,
+    /// The memory, or as much of it as is known already.
+    pub memory: &'a [u64],
+}
+
+impl Valuation for RememberingValuation<'_> {
+    fn value(&self, variable: VarId) -> u64 {
+        self.space.value(self.state, variable)
+    }
+
+    fn past(&self, past: &Past) -> i128 {
+        let word = self.history.position(past).and_then(|position| self.memory.get(position));
+        debug_assert!(word.is_some(), "this is not remembered: {past:?}");
+        remembered(word.copied().unwrap_or_default())
+    }
+
+    fn is_marked(&self, _: PlaceId) -> bool {
+        false
+    }
+
+    fn tokens(&self, _: PlaceId) -> u64 {
+        0
+    }
+
+    fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
+
+    fn is_deadlock(&self) -> bool {
+        false
+    }
+}
+
+/// Remembers what formulas know of the past, along scan states.
+pub struct Remembering<'a> {
+    /// The space of the states.
+    pub space: &'a ScanSpace<'a>,
+    /// What is remembered.
+    pub history: &'a History,
+}
+
+impl<'a> Remembering<'a> {
+    /// A state with its memory.
+    #[must_use]
+    pub fn at(&self, state: &'a [u64], memory: &'a [u64]) -> RememberingValuation<'a> {
+        RememberingValuation { space: self.space, state, history: self.history, memory }
+    }
+}
+
+impl Observer for Remembering<'_> {
+    fn len(&self) -> usize {
+        self.history.len()
+    }
+
+    fn beginning(&self) -> Vec<u64> {
+        let power_on = self.space.packed_power_on();
+        self.history.beginning(&|term, memory| {
+            let state = RememberingValuation { space: self.space, state: &power_on, history: self.history, memory };
+            term.value_in(&state).unwrap_or_default()
+        })
+    }
+
+    fn message(&self, state: &[u64], memory: &[u64], message: &mut Vec<u64>) {
+        let state = RememberingValuation { space: self.space, state, history: self.history, memory };
+        self.history.message(&state, memory, message);
+    }
+
+    fn remember(&self, message: &[u64], state: &[u64], memory: &mut Vec<u64>) {
+        memory.clear();
+        for position in 0..self.history.len() {
+            let so_far = RememberingValuation { space: self.space, state, history: self.history, memory };
+            let word = self.history.remember(position, message, &so_far);
+            memory.push(word);
+        }
     }
 }
 

@@ -95,6 +95,25 @@ pub fn comments(text: &str) -> Comments {
     found
 }
 
+/// What stands in comments that begin with `(*@` or `//@`, each where it stands: a text as long as the whole, the rest of which is
+/// blank. Nothing if there is no such comment, or the text is no text of a program but XML.
+#[must_use]
+pub fn requirements_in_comments(text: &str) -> Option<String> {
+    if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+        return None;
+    }
+    let inside = |Comment { span, kind }: Comment| {
+        let start = span.start + 3;
+        let end = span.end - if kind == Kind::Block { 2 } else { 0 };
+        (text.as_bytes().get(span.start + 2) == Some(&b'@') && start <= end).then_some(start..end)
+    };
+    let mut found = scan(text).filter_map(inside).peekable();
+    found.peek()?;
+    let mut bytes: Vec<u8> = text.bytes().map(|b| if b == b'\n' || b == b'\r' { b } else { b' ' }).collect();
+    found.for_each(|range| bytes[range.clone()].copy_from_slice(&text.as_bytes()[range]));
+    Some(String::from_utf8_lossy(&bytes).into_owned())
+}
+
 /// The openings of comments inside a comment.
 fn openings(text: &str, comment: Span) -> impl Iterator<Item = Span> {
     let inside = comment.start + 2;

@@ -10,7 +10,7 @@ mod parse;
 mod plcopen;
 mod print;
 
-pub use comments::{Comments, comments};
+pub use comments::{Comments, comments, requirements_in_comments};
 pub use parse::parse;
 
 /// The text with blanks instead of comments, of the same length.

@@ -2,12 +2,12 @@
 
 use super::Options;
 use crate::flat::Hazard;
-use crate::logic::View;
+use crate::logic::{Assumption, View};
 use crate::semantics::{Role, VarId};
 use crate::translate::System;
 
 /// The assumptions about a system that is checked in this way.
-pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
+pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<String> {
     let program = &system.program;
     let names =
         |ids: Vec<VarId>| ids.iter().map(|&id| program.variable(id).name.as_str()).collect::<Vec<_>>().join(", ");
@@ -51,6 +51,17 @@ pub fn assumptions(system: &System, options: &Options) -> Vec<String> {
         });
     }
     assumptions.extend(arithmetic(system, options));
+    for Assumption { name, sentence, text, .. } in &options.assumptions {
+        let said = match (name, sentence) {
+            (_, Some(sentence)) => format!("{sentence}: `{text}`"),
+            (Some(name), None) => format!("{name}: `{text}`"),
+            (None, None) => format!("`{text}`"),
+        };
+        assumptions.push(format!("in every scan, {said}"));
+    }
+    if program.scan_time.is_none() && timed {
+        assumptions.push(format!("a scan begins every {} ms", program.cycle));
+    }
     if let Some(time) = program.scan_time {
         assumptions.push(format!("a scan begins every {time} ms; during a scan the clock stands still"));
         if program.presets_vary {

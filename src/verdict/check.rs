@@ -9,16 +9,19 @@ use super::failing::what_is_missing;
 use super::independence::independence;
 use super::premises::{Occurrence, occurrence};
 use super::remarks::remarks;
+use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::why::{Broken, why};
-use super::{Answer, Exploration, Outcome, Report, Verdict, hazards, scan_ends};
-use crate::explore::{Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
+use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, every_line, hazards, scan_ends};
+use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
-use crate::logic::{Bound, Dag, Node, NodeId, Quantifier, Requirement, View, evidence, label};
+use crate::logic::{
+    Assumed, Assumption, Bound, Dag, Demand, History, Node, NodeId, Quantifier, Requirement, View, evidence, label,
+};
 use crate::translate::{PlaceRole, System};
 
 /// How to check.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// What a state is.
     pub view: View,
@@ -28,13 +31,15 @@ pub struct Options {
     pub budget: Budget,
     /// The hazards that are no errors. In the scan view nothing is known after the others.
     pub tolerated: Tolerated,
+    /// What is assumed of the inputs of each scan, in the scan view.
+    pub assumptions: Vec<Assumption>,
 }
 
 impl Default for Options {
-    /// The scan view, and no hazard tolerated.
+    /// The scan view, no hazard tolerated, and nothing assumed.
     fn default() -> Self {
         let (budget, tolerated) = (Budget::default(), Tolerated::default());
-        Self { view: View::Scan, fair: false, budget, tolerated }
+        Self { view: View::Scan, fair: false, budget, tolerated, assumptions: Vec::new() }
     }
 }
 
@@ -43,73 +48,41 @@ impl Default for Options {
 #[must_use]
 pub fn check(
     system: &System,
-    requirements: &[(Requirement, Bound)],
-    options: Options,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Report {
-    let scan_view;
-    let transition_view;
-    let view: &dyn SystemView = match options.view {
-        View::Scan => {
-            let space = ScanSpace::tolerating(system, options.tolerated);
-            let graph = explore(&space, options.budget, watch);
-            scan_view = ScanView { space, graph };
-            &scan_view
-        }
-        View::Transition => {
-            let markings = Markings::explored(&system.net, options.budget, watch);
-            transition_view = TransitionView { markings, system };
-            &transition_view
-        }
-    };
-    let graph = view.graph();
-    let fair = options.fair.then(|| scanning(view, graph));
-    let judge = Judge { view, graph, fair: fair.as_ref() };
-    let answers = requirements.par_iter().map(|(requirement, bound)| {
-        let outcome = judge.outcome(bound);
-        let independent = (outcome.verdict() == Verdict::Holds).then(|| independence(bound, system)).flatten();
-        Answer { independent, ..Answer::to(requirement, outcome) }
-    });
-    let answers = answers.collect();
-    let unfair = Judge { fair: None, ..judge };
-    let ends = match view.scans() {
-        Some(space) => scan_ends::on_scans(space, graph),
-        None => unfair.outcome(&scan_ends::formula(system)),
-    };
-    let met = |hazard| match view.scans() {
-        Some(space) => hazards::on_scans(space, graph, hazard),
-        None => unfair.outcome(&hazards::formula(system, hazard)),
-    };
-    let hazards = hazards::checked(&system.program, options.tolerated);
-    let checks =
-        std::iter::once(scan_ends::answer(ends)).chain(hazards.map(|hazard| hazards::answer(hazard, met(hazard))));
-    let checks = checks.collect();
-    // The first scan is a step too in the scan view, not in the transition view.
-    let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
-    let (coverage, remarks) = match view.scans() {
-        Some(space) => {
-            let never =
-                whole(graph).and_then(|graph| never_executed(space, graph, &mut || watch(&done(graph)).is_some()));
-            let remarks = remarks(space, graph, never.as_deref().unwrap_or_default());
-            (Some(coverage(system, requirements.iter().map(|(_, formula)| formula), never)), remarks)
-        }
-        None => (None, Vec::new()),
-    };
+    match options.view {
+        View::Scan => check_scans(system, requirements, options, watch),
+        View::Transition => check_markings(system, requirements, options, watch),
+    }
+}
+
+fn check_scans(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Report {
+    let assumed = Assumed(&options.assumptions);
+    let admission = (!options.assumptions.is_empty()).then_some(&assumed as &dyn Admission);
+    let space = ScanSpace::assuming(system, options.tolerated, admission);
+    let graph = explore(&space, options.budget, watch);
+    let view = ScanView { space, graph, assumptions: &options.assumptions };
+    let outcomes = outcomes(&view, requirements, options, watch);
+    let ScanView { space, graph, .. } = &view;
+    let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
+    let hazards = hazards::checked(&system.program, options.tolerated)
+        .map(|hazard| hazards::answer(hazard, hazards::on_scans(space, graph, hazard)));
+    let inputs = admission.map(|_| admitted::answer(admitted::outcome(&view)));
+    let never = whole(graph).and_then(|graph| never_executed(space, graph, &mut || watch(&done(graph)).is_some()));
+    let formulas = requirements.iter().filter_map(|(_, demand)| demand.formula());
     Report {
-        exploration: Exploration {
-            view: options.view,
-            states: graph.len(),
-            steps: graph.steps(),
-            depth,
-            complete: graph.is_complete(),
-            stop: graph.stop().clone(),
-            bytes: graph.bytes(),
-        },
-        assumptions: assumptions(system, &options),
-        answers,
-        checks,
-        remarks,
-        coverage,
+        answers: answers(system, requirements, options, outcomes),
+        checks: ends.chain(hazards).chain(inputs).collect(),
+        remarks: remarks(space, graph, never.as_deref().unwrap_or_default()),
+        coverage: Some(coverage(system, formulas, never)),
+        ..report(system, requirements, options, graph)
     }
 }
 
@@ -122,6 +95,103 @@ fn whole(graph: &Graph) -> Option<&Graph> {
 fn done(graph: &Graph) -> Progress {
     let states = graph.len() as u64;
     Progress { states, expanded: states, depth: graph.depth(), bytes: graph.bytes() }
+}
+
+/// The answers to requirements with these outcomes.
+fn answers(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    outcomes: Vec<Outcome>,
+) -> Vec<Answer> {
+    let answer = |((requirement, demand), outcome): (&(Requirement, Demand), Outcome)| {
+        let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
+        let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
+        Answer { independent, ..Answer::to(requirement, outcome) }
+    };
+    requirements.iter().zip(outcomes).map(answer).collect()
+}
+
+/// The outcomes of requirements on scans. Those that know the same of the past are judged together, on one graph.
+fn outcomes(
+    view: &ScanView<'_>,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Vec<Outcome> {
+    let mut groups: Vec<(History, Vec<usize>)> = Vec::new();
+    for (position, (_, demand)) in requirements.iter().enumerate() {
+        let history = History::of(demand.formula());
+        match groups.iter_mut().find(|(known, _)| *known == history) {
+            Some((_, members)) => members.push(position),
+            None => groups.push((history, vec![position])),
+        }
+    }
+    let mut outcomes = vec![Outcome::holds(); requirements.len()];
+    for (history, members) in groups {
+        let remembering;
+        let judge = if history.is_empty() {
+            Judge { view, graph: &view.graph, fair: None }
+        } else {
+            let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
+            remembering = RememberingView::new(view, history, Budget { bytes, ..options.budget }, watch);
+            Judge { view: &remembering, graph: remembering.graph(), fair: None }
+        };
+        let judged = members.par_iter().map(|&position| match &requirements[position].1 {
+            Demand::Formula(formula) => judge.outcome(formula),
+            Demand::EveryLine => every_line::outcome(view),
+        });
+        let judged: Vec<Outcome> = judged.collect();
+        members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
+    }
+    outcomes
+}
+
+fn check_markings(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+) -> Report {
+    let markings = Markings::explored(&system.net, options.budget, watch);
+    let view = TransitionView { markings, system };
+    let graph = view.graph();
+    let fair = options.fair.then(|| scanning(&view, graph));
+    let judge = Judge { view: &view, graph, fair: fair.as_ref() };
+    let outcomes = requirements.par_iter().map(|(_, demand)| match demand {
+        Demand::Formula(formula) => judge.outcome(formula),
+        Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
+    });
+    let answers = answers(system, requirements, options, outcomes.collect());
+    let unfair = Judge { fair: None, ..judge };
+    let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
+    let hazards = hazards::checked(&system.program, options.tolerated)
+        .map(|hazard| hazards::answer(hazard, unfair.outcome(&hazards::formula(system, hazard))));
+    let checks = ends.chain(hazards).collect();
+    Report { answers, checks, ..report(system, requirements, options, graph) }
+}
+
+/// A report without answers.
+fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Options, graph: &Graph) -> Report {
+    // The first scan is a step too in the scan view, not in the transition view.
+    let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
+    let timed = requirements.iter().any(|(requirement, _)| requirement.speaks_of_time());
+    Report {
+        exploration: Exploration {
+            view: options.view,
+            states: graph.len(),
+            steps: graph.steps(),
+            depth,
+            complete: graph.is_complete(),
+            stop: graph.stop().clone(),
+            bytes: graph.bytes(),
+        },
+        assumptions: assumptions(system, options, timed),
+        answers: Vec::new(),
+        checks: Vec::new(),
+        remarks: Vec::new(),
+        coverage: None,
+    }
 }
 
 /// The states in which the PLC is not idle. From an idle state `block` is always enabled, so leaving out the paths on which it
@@ -150,8 +220,8 @@ impl Judge<'_> {
         let labels = label(graph, &dag, &holds, fair);
         let evidence = |node: NodeId| evidence(graph, &dag, &labels, fair, node, graph.initial());
         let shown = |node: NodeId| Some(witness(view, graph, &dag, &evidence(node)?));
-        let evident = evidence(no).map(|evidence| (witness(view, graph, &dag, &evidence), evidence));
-        match evident {
+        let broken = evidence(no).map(|evidence| (witness(view, graph, &dag, &evidence), evidence));
+        match broken {
             Some((Ok(witness), evidence)) => {
                 let (dag, labels, evidence) = (&dag, &labels, &evidence);
                 let why = why(Broken { view, graph, formula, dag, negation: no, labels, evidence }, &witness);

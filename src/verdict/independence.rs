@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::logic::Bound;
+use crate::logic::{Assumption, Bound};
 use crate::semantics::Role;
 use crate::translate::System;
 
@@ -19,12 +19,14 @@ pub enum Independence {
 const MOST: usize = 12;
 
 /// What a requirement that holds does not depend on, as far as the formula tells.
-pub fn independence(formula: &Bound, system: &System) -> Option<Independence> {
+pub fn independence(formula: &Bound, system: &System, assumptions: &[Assumption]) -> Option<Independence> {
     if is_always_true(formula) {
         return Some(Independence::OfEverything);
     }
     let variables = formula.mentions().variables;
-    let alone = variables.iter().all(|&variable| {
+    // What is assumed of inputs may depend on outputs, too.
+    let assumed = assumptions.iter().flat_map(|assumption| assumption.formula.mentions().variables);
+    let alone = variables.iter().copied().chain(assumed).all(|variable| {
         let devices = system.plant.driver(variable).map(|device| &system.plant.components[device]);
         let reacts = devices.is_some_and(|device| device.transitions.iter().any(|t| !t.tests.is_empty()));
         system.program.variable(variable).role == Role::Input && !reacts

@@ -1,15 +1,18 @@
 //! Verdicts: every requirement holds, is violated with a witness, or is undecided for a reason.
 
+mod admitted;
 mod answer;
 mod assumptions;
 mod check;
 mod coverage;
+mod every_line;
 mod failing;
 mod hazards;
 mod independence;
 mod net;
 mod premises;
 mod remarks;
+mod remembering;
 mod scan_ends;
 mod views;
 mod why;

@@ -2,21 +2,23 @@
 
 use super::{Trace, Witness};
 use crate::explore::{Graph, Markings, ScanSpace};
-use crate::logic::{Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
+use crate::logic::{Assumption, Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
 use crate::translate::System;
 use crate::verdict::Note;
-use crate::witness::{Disagreement, Holds, firing_trace, replay_firings, replay_scans, scan_trace};
+use crate::witness::{Disagreement, Holds, Recalled, firing_trace, replay_firings, replay_scans, scan_trace};
 
 /// A view of a system.
 pub trait SystemView: Sync {
     /// Its states and steps.
     fn graph(&self) -> &Graph;
-    /// Its states as ends of scans, if they are.
-    fn scans(&self) -> Option<&ScanSpace<'_>>;
     /// The system.
     fn system(&self) -> &System;
     /// Whether a formula about one state holds in a state.
     fn holds(&self, formula: &Bound, state: &[u64]) -> bool;
+    /// Its states as ends of scans, if they are.
+    fn scans(&self) -> Option<&dyn ScanStates> {
+        None
+    }
     /// The trace along some states, replayed; `shows` is asked at each of them whether the replay shows what it should.
     fn replayed(
         &self,
@@ -26,19 +28,28 @@ pub trait SystemView: Sync {
     ) -> Result<Trace, Disagreement>;
 }
 
+/// A view whose states are ends of scans, each with a memory of the scans before.
+pub trait ScanStates: SystemView {
+    /// The scan view itself.
+    fn base(&self) -> &ScanView<'_>;
+    /// The end of a scan as the space packs it, and the memory, of a state.
+    fn parts<'a>(&'a self, state: &'a [u64]) -> (&'a [u64], &'a [u64]);
+    /// The memory at the end of a scan that comes after another one with its memory, or is the first one.
+    fn remember(&self, before: Option<(&[u64], &[u64])>, end: &[u64]) -> Vec<u64>;
+    /// Whether a formula about one state holds at the end of a scan, which need not be a state of the graph.
+    fn holds_after(&self, formula: &Bound, end: &[u64], memory: &[u64]) -> bool;
+}
+
 /// The scan view.
 pub struct ScanView<'s> {
     pub space: ScanSpace<'s>,
     pub graph: Graph,
+    pub assumptions: &'s [Assumption],
 }
 
 impl SystemView for ScanView<'_> {
     fn graph(&self) -> &Graph {
         &self.graph
-    }
-
-    fn scans(&self) -> Option<&ScanSpace<'_>> {
-        Some(&self.space)
     }
 
     fn system(&self) -> &System {
@@ -49,6 +60,10 @@ impl SystemView for ScanView<'_> {
         formula.holds_in(&ScanValuation(&self.space, state)).unwrap_or(false)
     }
 
+    fn scans(&self) -> Option<&dyn ScanStates> {
+        Some(self)
+    }
+
     fn replayed(
         &self,
         states: &[&[u64]],
@@ -56,8 +71,39 @@ impl SystemView for ScanView<'_> {
         shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement> {
         let trace = scan_trace(&self.space, states, loop_start, None);
-        replay_scans(self.system(), &trace, shows)?;
+        replay_scans(self.system(), &trace, |position, recalled| {
+            self.check_assumptions(recalled)?;
+            shows(position, &|formula| recalled.holds(formula))
+        })?;
         Ok(Trace::Scans(trace))
+    }
+}
+
+impl ScanStates for ScanView<'_> {
+    fn base(&self) -> &ScanView<'_> {
+        self
+    }
+
+    fn parts<'a>(&'a self, state: &'a [u64]) -> (&'a [u64], &'a [u64]) {
+        (state, &[])
+    }
+
+    fn remember(&self, _: Option<(&[u64], &[u64])>, _: &[u64]) -> Vec<u64> {
+        Vec::new()
+    }
+
+    fn holds_after(&self, formula: &Bound, end: &[u64], _: &[u64]) -> bool {
+        self.holds(formula, end)
+    }
+}
+
+impl ScanView<'_> {
+    /// What is assumed must be so in the scan that has just ended.
+    pub fn check_assumptions(&self, recalled: &Recalled) -> Result<(), Disagreement> {
+        match self.assumptions.iter().find(|assumption| recalled.holds(&assumption.formula) != Some(true)) {
+            Some(broken) => Err(Disagreement(format!("the assumption `{}` does not hold in the trace", broken.text))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -70,10 +116,6 @@ pub struct TransitionView<'s> {
 impl SystemView for TransitionView<'_> {
     fn graph(&self) -> &Graph {
         self.markings.graph()
-    }
-
-    fn scans(&self) -> Option<&ScanSpace<'_>> {
-        None
     }
 
     fn system(&self) -> &System {

@@ -6,6 +6,7 @@
 
 mod firing_trace;
 mod narrate;
+mod recalled;
 mod replay;
 mod scan_trace;
 mod table;
@@ -13,6 +14,7 @@ mod writes;
 
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
 pub use narrate::{firing_table, line_by_line, marked_scan_table, scan_table};
+pub use recalled::Recalled;
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
 pub use table::{Column, Table};

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::recalled::Recalled;
 use super::replay::{Disagreement, Replay};
 use crate::explore::{Failure, ScanSpace, ScanState};
 use crate::flat::Hazard;
@@ -96,16 +97,17 @@ fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove>
 /// Whether a formula about one state holds now; `None` for a temporal formula.
 pub type Holds<'a> = &'a dyn Fn(&Bound) -> Option<bool>;
 
-/// Replays a trace, and calls `at_end` at the end of each scan with its position.
+/// Replays a trace, and calls `at_end` at the end of each scan with its position and with what is recalled of the run.
 ///
 /// # Errors
 /// The trace is not one of the system, or `at_end` finds that it does not show what it should.
 pub fn replay_scans(
     system: &System,
     trace: &ScanTrace,
-    mut at_end: impl FnMut(usize, Holds<'_>) -> Result<(), Disagreement>,
+    mut at_end: impl FnMut(usize, &Recalled) -> Result<(), Disagreement>,
 ) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
+    let mut recalled = Recalled::new(replay.memory());
     let end_place = PlaceRole::Line(system.program.end());
     for (position, scan) in trace.scans.iter().enumerate() {
         let in_scan = |Disagreement(what)| Disagreement(format!("in scan {}: {what}", position + 1));
@@ -136,7 +138,8 @@ pub fn replay_scans(
             return Err(in_scan(Disagreement("it never ends".to_owned())));
         }
         compare(system, &replay, end).map_err(in_scan)?;
-        at_end(position, &|formula| replay.holds(formula)).map_err(in_scan)?;
+        recalled.push(replay.memory());
+        at_end(position, &recalled).map_err(in_scan)?;
         replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
     }
     // Both ends have been compared with the net, so they are the same if they say the same.

@@ -3,7 +3,7 @@
 use petril::diagnostic::{Diagnostic, Style, any_error, render};
 use petril::exchange::{mcc, pnml, tina};
 use petril::flat::flatten;
-use petril::logic::{Nodes, View, bind, bind_in_net, parse_requirements};
+use petril::logic::{Nodes, View, bind, bind_in_net, bind_requirement, parse_requirements};
 use petril::source::Source;
 use petril::translate::{Plant, System};
 use petril::{semantics, syntax};
@@ -304,7 +304,7 @@ proptest! {
         let system = System::new(program, Plant::default());
         for requirement in file.requirements {
             for view in [View::Scan, View::Transition] {
-                if let Err(diagnostics) = bind(&requirement.formula, &system, view) {
+                if let Err(diagnostics) = bind_requirement(&requirement, &system, view) {
                     prop_assert!(any_error(&diagnostics));
                     are_printable(&diagnostics, &source)?;
                 }

@@ -24,6 +24,7 @@ pub fn assemble(declarations: &str, code: &str) -> FlatProgram {
         variables,
         code,
         scan_time: None,
+        cycle: 20,
         presets_vary: false,
         restrictions: Default::default(),
     }

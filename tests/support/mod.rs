@@ -41,6 +41,6 @@ pub fn program(text: &str) -> FlatProgram {
 
 /// A formula that must be right.
 pub fn formula(text: &str, system: &System, view: View) -> Bound {
-    let requirement = parse_formula("r", &Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
-    bind(&requirement.formula, system, view).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+    let formula = parse_formula(&Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+    bind(&formula, system, view).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }

@@ -1,6 +1,6 @@
 //! Reports of systems for tests.
 
-use petril::logic::{View, bind, parse_requirements};
+use petril::logic::{View, bind_requirement, parse_requirements};
 use petril::source::Source;
 use petril::translate::System;
 use petril::verdict::{Answer, Options, Outcome, Report, Trace, check};
@@ -12,11 +12,11 @@ pub fn report(system: &System, requirements: &str) -> Report {
     let (file, errors) = parse_requirements(&source);
     assert!(errors.is_empty(), "{errors:#?}");
     let bound = file.requirements.into_iter().map(|requirement| {
-        let bound = bind(&requirement.formula, system, View::Scan).unwrap_or_else(|e| panic!("{e:#?}"));
+        let bound = bind_requirement(&requirement, system, View::Scan).unwrap_or_else(|e| panic!("{e:#?}"));
         (requirement, bound)
     });
     let bound: Vec<_> = bound.collect();
-    check(system, &bound, Options::default(), &mut |_| None)
+    check(system, &bound, &Options::default(), &mut |_| None)
 }
 
 /// Each requirement by name, with its verdict in one word.

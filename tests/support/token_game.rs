@@ -147,6 +147,7 @@ pub fn flat(mut variables: Vec<Variable>, code: Vec<Instruction>) -> FlatProgram
         variables,
         code,
         scan_time: None,
+        cycle: 20,
         presets_vary: false,
         restrictions: Default::default(),
     }

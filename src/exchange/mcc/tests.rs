@@ -49,8 +49,8 @@ fn text(formula: &str) -> String {
     let Query::Holds(read) = &properties[0].query else { panic!("{formula} asks for a bound") };
     let bound = bind_in_net(read, &Nodes::by_name(&net)).unwrap_or_else(|e| panic!("{formula}\n{e:#?}"));
     let text = bound.text_in_net(&net);
-    let again = parse_formula("r", &Source::new("formula", text.as_str())).unwrap();
-    assert_eq!(bind_in_net(&again.formula, &Nodes::by_name(&net)), Ok(bound), "{text}");
+    let again = parse_formula(&Source::new("formula", text.as_str())).unwrap();
+    assert_eq!(bind_in_net(&again, &Nodes::by_name(&net)), Ok(bound), "{text}");
     text
 }
 

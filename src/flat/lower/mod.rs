@@ -40,10 +40,11 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     lowering.body(&entry);
     lowering.place_label(entry.exit);
     lowering.resolve();
-    let scan_time = has_timers.then_some(lowering.scan_time);
+    let cycle = lowering.scan_time;
+    let scan_time = has_timers.then_some(cycle);
     let name = program.pous[&program.entry].name.clone();
     let Lowering { variables, code, restrictions, timers, .. } = lowering;
-    let mut flat = FlatProgram { name, variables, code, restrictions, scan_time, presets_vary: false };
+    let mut flat = FlatProgram { name, variables, code, restrictions, scan_time, cycle, presets_vary: false };
     narrow(&mut flat, &timers);
     flat
 }

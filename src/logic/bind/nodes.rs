@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::{Name, Spot, Vocabulary};
+use super::{Name, ScanTime, Spot, Vocabulary};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::bound::{Bound, Term};
 use crate::net::{Net, PlaceId, TransitionId};
+use crate::semantics::Role;
 use crate::source::Span;
 
 /// What the nodes of a net are called in formulas: by their names, or by ids that the file of the net gives them.
@@ -96,6 +97,14 @@ impl Vocabulary for Nodes<'_> {
 
     fn transition(&self, name: &Name<'_>) -> Result<TransitionId, Diagnostic> {
         self.find("transition", &self.transitions, name)
+    }
+
+    fn scans(&self, span: Span) -> Result<ScanTime, Diagnostic> {
+        Err(only_with_program("scans before or after", span))
+    }
+
+    fn all(&self, _: Role) -> Vec<Term> {
+        Vec::new()
     }
 
     fn deadlock(&self, _: Span) -> Result<Bound, Diagnostic> {

@@ -1,10 +1,10 @@
 //! What names mean in a formula about a program: variables, in the transition view also lines and the nodes of its net.
 
-use super::{Name, Spot, Vocabulary};
+use super::{Name, ScanTime, Spot, Vocabulary};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::bound::{Bound, Term};
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::{Role, VarId};
+use crate::semantics::{Kind, Role, VarId};
 use crate::source::Span;
 use crate::translate::{PlaceRole, System};
 
@@ -25,6 +25,9 @@ pub(super) struct InProgram<'a> {
 
 impl Vocabulary for InProgram<'_> {
     fn truth(&self, name: &Name<'_>) -> Result<Bound, Diagnostic> {
+        if let Some(bit) = self.bit_of(name)? {
+            return Ok(bit);
+        }
         let variable = self.find(name)?;
         let found = self.system.program.variable(variable);
         if found.ty.is_bool() {
@@ -36,19 +39,11 @@ impl Vocabulary for InProgram<'_> {
     }
 
     fn number(&self, name: &Name<'_>) -> Result<Term, Diagnostic> {
+        if let Some(bit) = self.bit_of(name)? {
+            return Ok(Term::Truth(Box::new(bit)));
+        }
         let variable = self.find(name)?;
-        let ty = self.system.program.variable(variable).ty;
-        if ty.is_bool() {
-            return Ok(Term::Truth(Box::new(self.bit(variable))));
-        }
-        if self.view == View::Scan {
-            return Ok(Term::Variable(variable, ty));
-        }
-        // In two's complement, the highest bit of the type counts negatively.
-        let weight = |bit: u32| if ty.is_signed() && bit + 1 == ty.width { -(1_i128 << bit) } else { 1 << bit };
-        let bits = (0..).zip(self.system.bits(variable));
-        let places = bits.map(|(bit, [_, place])| (place, weight(bit))).collect();
-        Ok(Term::Bits { variable, places })
+        Ok(self.number_of(variable))
     }
 
     fn enumerated(&self, value: &str, variable: &str) -> Option<i128> {
@@ -93,6 +88,19 @@ impl Vocabulary for InProgram<'_> {
         })
     }
 
+    fn scans(&self, span: Span) -> Result<ScanTime, Diagnostic> {
+        if self.view == View::Scan {
+            return Ok(ScanTime(self.system.program.cycle));
+        }
+        let message =
+            "the requirement speaks of scans before or after, but a step of the transition view is one firing";
+        Err(Diagnostic::new(Code::RequirementView, span, message).help("check it in the scan view"))
+    }
+
+    fn all(&self, role: Role) -> Vec<Term> {
+        self.system.program.with_role(role).map(|variable| self.number_of(variable)).collect()
+    }
+
     fn deadlock(&self, span: Span) -> Result<Bound, Diagnostic> {
         self.only_in_transition_view("a deadlock of the net", span)?;
         Ok(Bound::Deadlock)
@@ -100,6 +108,44 @@ impl Vocabulary for InProgram<'_> {
 }
 
 impl InProgram<'_> {
+    /// What a variable counts.
+    fn number_of(&self, variable: VarId) -> Term {
+        let ty = self.system.program.variable(variable).ty;
+        if ty.is_bool() {
+            return Term::Truth(Box::new(self.bit(variable)));
+        }
+        if self.view == View::Scan {
+            return Term::Variable(variable, ty);
+        }
+        // In two's complement, the highest bit of the type counts negatively.
+        let weight = |bit: u32| if ty.is_signed() && bit + 1 == ty.width { -(1_i128 << bit) } else { 1 << bit };
+        let bits = (0..).zip(self.system.bits(variable));
+        let places = bits.map(|(bit, [_, place])| (place, weight(bit))).collect();
+        Term::Bits { variable, places }
+    }
+
+    /// `Status.3`, if that is a bit of a variable.
+    fn bit_of(&self, name: &Name<'_>) -> Result<Option<Bound>, Diagnostic> {
+        let program = &self.system.program;
+        let bit = name.text.rsplit_once('.').and_then(|(of, bit)| Some((of, bit.parse::<u32>().ok()?)));
+        let Some((of, bit)) = bit else { return Ok(None) };
+        let variable = self.find(&Name { text: of, ..*name })?;
+        let found = program.variable(variable);
+        let unfit = |message: String| Err(Diagnostic::new(Code::RequirementTypes, name.span, message));
+        if found.ty.kind != Kind::Bits || found.ty.is_bool() {
+            return unfit(format!("`{of}` is of type `{}`, which is not made of bits", found.ty));
+        }
+        if bit >= found.ty.width {
+            return unfit(format!("`{of}` has no bit {bit}: its bits are 0 to {}", found.ty.width - 1));
+        }
+        Ok(Some(match self.view {
+            // What is never stored is 0.
+            _ if bit >= found.bits => Bound::Truth(false),
+            View::Scan => Bound::Bit(variable, bit),
+            View::Transition => Bound::Marked(self.system.place(PlaceRole::Bit { variable, bit, value: true })),
+        }))
+    }
+
     /// The variable of a name.
     fn find(&self, name: &Name<'_>) -> Result<VarId, Diagnostic> {
         let program = &self.system.program;

@@ -13,6 +13,17 @@ fn explicit(formula: &Formula) -> String {
         Expression::AtIdle => "at idle".to_owned(),
         Expression::AtEnd => "at End".to_owned(),
         Expression::Deadlock => "at deadlock".to_owned(),
+        Expression::FirstScan => "at first scan".to_owned(),
+        Expression::InputChanges => "an input changes".to_owned(),
+        Expression::OutputChanges => "an output changes".to_owned(),
+        Expression::Past(past, of) => {
+            format!("{past:?}({})", of.iter().map(explicit).collect::<Vec<_>>().join(", "))
+        }
+        Expression::Held(f, duration) => format!("held({}, {:?})", explicit(f), duration.amount),
+        Expression::Within(f, duration) => format!("({} within {:?})", explicit(f), duration.amount),
+        Expression::Response(f, g, duration) => {
+            format!("response({}, {}, {:?})", explicit(f), explicit(g), duration.amount)
+        }
         Expression::Tokens(name) => format!("#{name}"),
         Expression::Marked(name) => format!("<{name}>"),
         Expression::Enabled(name) => format!("<<{name}>>"),
@@ -33,8 +44,8 @@ fn explicit(formula: &Formula) -> String {
 }
 
 fn read(text: &str) -> String {
-    match parse_formula("r", &Source::new("formula", text)) {
-        Ok(requirement) => explicit(&requirement.formula),
+    match parse_formula(&Source::new("formula", text)) {
+        Ok(formula) => explicit(&formula),
         Err(error) => error.message,
     }
 }
@@ -92,7 +103,7 @@ fn huge_formulas_are_refused_and_large_ones_are_not() {
     for text in
         [nested(100_000), "!".repeat(100_000) + "a", "a & ".repeat(100_000) + "a", "a -> ".repeat(100_000) + "a"]
     {
-        assert!(parse_formula("r", &Source::new("formula", text)).is_err());
+        assert!(parse_formula(&Source::new("formula", text)).is_err());
     }
     assert!(read(&("a & ".repeat(300) + "a")).starts_with("(((("));
 }

@@ -44,7 +44,7 @@ impl Linear {
                 let (constant, other) = constant(a).map(|a| (a, b)).or_else(|| Some((constant(b)?, a)))?;
                 self.add(other, factor.checked_mul(i64::try_from(constant).ok()?)?)?;
             }
-            Term::Variable(..) | Term::Bits { .. } | Term::Truth(_) => return None,
+            Term::Variable(..) | Term::Bits { .. } | Term::Truth(_) | Term::Past(_) => return None,
         }
         Some(())
     }

@@ -36,10 +36,10 @@ pub struct Broken<'a> {
 
 /// Why a run that has been replayed breaks a requirement; nothing in the transition view.
 pub fn why(broken: Broken<'_>, witness: &Witness) -> Option<Why> {
-    let (Trace::Scans(trace), Some(space)) = (&witness.trace, broken.view.scans()) else { return None };
+    let (Trace::Scans(trace), Some(scans)) = (&witness.trace, broken.view.scans()) else { return None };
     let wanted = wanted::wanted(&broken);
-    let (writers, unwritten) = writers(space, trace, &wanted.literals);
-    let (repair, unrepaired) = match repair::repair(&broken, space, trace) {
+    let (writers, unwritten) = writers(&scans.base().space, trace, &wanted.literals);
+    let (repair, unrepaired) = match repair::repair(&broken, scans, trace) {
         Ok(repair) => (Some(repair), None),
         Err(reason) => (None, Some(reason)),
     };

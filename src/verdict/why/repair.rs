@@ -3,9 +3,10 @@
 use super::Broken;
 use super::candidates::{Candidates, Slot, candidates};
 use super::rerun::{Again, Rerun};
-use crate::explore::{Position, ScanSpace};
+use crate::explore::Position;
 use crate::logic::{Bound, Node, Quantifier, along};
 use crate::semantics::VarId;
+use crate::verdict::views::{ScanStates, SystemView};
 use crate::verdict::{Change, Repair};
 use crate::witness::{Disagreement, ScanTrace};
 
@@ -29,18 +30,19 @@ enum Trial {
 }
 
 /// The inputs that matter, or why none are told.
-pub fn repair(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace) -> Result<Repair, String> {
+pub fn repair(broken: &Broken<'_>, scans: &dyn ScanStates, trace: &ScanTrace) -> Result<Repair, String> {
     let again = || "the run cannot be made again with given inputs".to_owned();
-    let rerun = Rerun::new(space, trace).ok_or_else(again)?;
+    let rerun = Rerun::new(scans, trace).ok_or_else(again)?;
     let universal = broken.dag.is_universal(broken.negation);
     if universal && !broken.graph.is_complete() {
         return Err("not all states were explored".to_owned());
     }
     let itself = rerun.itself();
-    let ends: Vec<Position> = itself.ends.iter().map(|end| Position::clone(end)).collect();
-    let search = Search { broken, space, rerun, universal, scan_length: space.system().program.end() + 16 };
+    let ends: Vec<Position> = itself.ends.iter().map(|end| end.position.clone()).collect();
+    let space = &scans.base().space;
+    let search = Search { broken, scans, rerun, universal, scan_length: space.system().program.end() + 16 };
     if !matches!(search.judged(itself), Trial::Breaks) {
-        return Err(in_common());
+        return Err("one run alone does not show that the requirement is broken".to_owned());
     }
     let initial = broken.labels.of(broken.negation);
     let on_all_paths = matches!(
@@ -61,7 +63,7 @@ fn in_common() -> String {
 
 struct Search<'a> {
     broken: &'a Broken<'a>,
-    space: &'a ScanSpace<'a>,
+    scans: &'a dyn ScanStates,
     rerun: Rerun<'a>,
     /// Whether the break rests on something that is so on all paths.
     universal: bool,
@@ -71,7 +73,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn is_exhausted(&self, work: usize) -> bool {
-        self.rerun.scans() * self.scan_length > work
+        self.rerun.computed() * self.scan_length > work
     }
 
     /// Makes the run again.
@@ -81,33 +83,37 @@ impl Search<'_> {
 
     /// Whether a run breaks the requirement.
     fn judged(&self, again: Again) -> Trial {
-        let Broken { view, dag, labels, .. } = *self.broken;
-        let (packed, ids) = if self.universal {
+        let Broken { dag, labels, .. } = *self.broken;
+        let mut ids = Vec::new();
+        if self.universal {
             let packed = self.packed_run(&again);
             let closes = again.loop_start.is_none_or(|start| packed.get(start) == packed.last());
-            let Some(ids) = self.numbers(&packed).filter(|_| closes) else { return Trial::Impossible };
-            (packed, ids)
-        } else {
-            (again.ends.iter().map(|end| self.space.packed_position(end)).collect(), Vec::new())
-        };
+            let Some(numbers) = self.numbers(&packed, &again).filter(|_| closes) else { return Trial::Impossible };
+            ids = numbers;
+        }
         let run = (again.length(), again.loop_start);
         let everywhere = |node, at: usize| self.universal && labels.of(node).contains(ids[at] as usize);
-        let truths = along(dag, run, &|formula, at| view.holds(formula, &packed[at]), &everywhere);
+        let truths = along(dag, run, &|formula, at| self.holds(formula, &again, at), &everywhere);
         if truths[self.broken.negation.index()][0] { Trial::Breaks } else { Trial::Repaired(again) }
     }
 
     fn packed_run(&self, again: &Again) -> Vec<Vec<u64>> {
-        let ends: Vec<Position> = again.ends.iter().map(|end| Position::clone(end)).collect();
-        self.space.packed_run(&ends)
+        let ends: Vec<Position> = again.ends.iter().map(|end| end.position.clone()).collect();
+        self.scans.base().space.packed_run(&ends)
+    }
+
+    fn holds(&self, formula: &Bound, again: &Again, at: usize) -> bool {
+        self.scans.holds_after(formula, &again.ends[at].packed, &again.ends[at].memory)
     }
 
     /// The numbers of the states in the graph.
-    fn numbers(&self, packed: &[Vec<u64>]) -> Option<Vec<u32>> {
+    fn numbers(&self, packed: &[Vec<u64>], again: &Again) -> Option<Vec<u32>> {
         let graph = self.broken.graph;
         let mut ids: Vec<u32> = Vec::with_capacity(packed.len());
-        for state in packed {
+        for (state, end) in packed.iter().zip(&again.ends) {
             let next = ids.last().map_or(graph.initial(), |&id| graph.successors(id));
-            ids.push(next.iter().copied().find(|&id| graph.state(id) == state)?);
+            let same = |&id: &u32| self.scans.parts(graph.state(id)) == (state.as_slice(), end.memory.as_slice());
+            ids.push(next.iter().copied().find(same)?);
         }
         Some(ids)
     }
@@ -210,7 +216,7 @@ impl Search<'_> {
         if let Some(earlier) = scan.checked_sub(1) {
             return self.rerun.trace().scans[earlier].inputs.clone();
         }
-        let system = self.space.system();
+        let system = self.scans.base().system();
         let given = system.plant.components.iter().filter_map(|component| component.markings.first());
         let given = given.flat_map(|marking| marking.inputs.iter().copied());
         let free = system.free_inputs().map(|input| (input, system.program.variable(input).initial));
@@ -238,13 +244,10 @@ impl Search<'_> {
         let packed = self.packed_run(again);
         let states: Vec<&[u64]> = packed.iter().map(Vec::as_slice).collect();
         let Broken { view, dag, .. } = *self.broken;
-        let agree = |formula: &Bound, position: usize, shown: Option<bool>| {
-            shown == Some(view.holds(formula, &packed[position]))
-        };
-        view.replayed(&states, None, &|position, holds| {
+        self.scans.base().replayed(&states, None, &|position, holds| {
             for node in dag.nodes() {
                 let Node::State { formula, .. } = node else { continue };
-                if !agree(formula, position, holds(formula)) {
+                if holds(formula) != Some(self.holds(formula, again, position)) {
                     let text = formula.text(view.system());
                     return Err(Disagreement(format!("after scan {}, `{text}`", position + 1)));
                 }

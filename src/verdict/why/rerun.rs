@@ -3,22 +3,34 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use crate::explore::{Position, ScanSpace};
+use crate::explore::Position;
 use crate::semantics::VarId;
 use crate::verdict::Change;
+use crate::verdict::views::ScanStates;
 use crate::witness::ScanTrace;
 
 /// Rounds of a loop after which nobody waits any longer for it to close.
 const ROUNDS: usize = 64;
 
+/// Where a run is at the end of a scan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct End {
+    /// The values, and the markings of the devices that fit.
+    pub position: Position,
+    /// The same packed, with some of these markings.
+    pub packed: Vec<u64>,
+    /// What is remembered.
+    pub memory: Vec<u64>,
+}
+
 /// A run, to be made again. The inputs of a loop are repeated for ever.
 pub struct Rerun<'a> {
-    space: &'a ScanSpace<'a>,
+    scans: &'a dyn ScanStates,
     trace: &'a ScanTrace,
     /// Where the run itself was after each scan.
-    ends: Vec<Rc<Position>>,
+    ends: Vec<Rc<End>>,
     /// Scans that were computed.
-    scans: Cell<usize>,
+    computed: Cell<usize>,
     /// Some run went on without coming to a loop.
     gave_up: Cell<bool>,
 }
@@ -26,7 +38,7 @@ pub struct Rerun<'a> {
 /// A run that was made again.
 pub struct Again {
     /// Where it was after each scan; of a loop, the last one is where it closes.
-    pub ends: Vec<Rc<Position>>,
+    pub ends: Vec<Rc<End>>,
     /// For a lasso, the position that the last one repeats.
     pub loop_start: Option<usize>,
 }
@@ -40,8 +52,8 @@ impl Again {
 
 impl<'a> Rerun<'a> {
     /// The run as it is. `None` if it cannot be made again.
-    pub fn new(space: &'a ScanSpace<'a>, trace: &'a ScanTrace) -> Option<Self> {
-        let mut rerun = Self { space, trace, ends: Vec::new(), scans: Cell::new(0), gave_up: Cell::new(false) };
+    pub fn new(scans: &'a dyn ScanStates, trace: &'a ScanTrace) -> Option<Self> {
+        let mut rerun = Self { scans, trace, ends: Vec::new(), computed: Cell::new(0), gave_up: Cell::new(false) };
         rerun.ends = rerun.with(&[])?.ends;
         Some(rerun)
     }
@@ -62,8 +74,8 @@ impl<'a> Rerun<'a> {
     }
 
     /// Scans that were computed so far.
-    pub fn scans(&self) -> usize {
-        self.scans.get()
+    pub fn computed(&self) -> usize {
+        self.computed.get()
     }
 
     /// The run with other inputs. `None` if the system has no such run, or it does not come to a loop.
@@ -91,18 +103,22 @@ impl<'a> Rerun<'a> {
     }
 
     /// Appends the end of one scan.
-    fn scan(&self, scan: usize, changes: &[Change], ends: &mut Vec<Rc<Position>>) -> Option<()> {
-        self.scans.set(self.scans.get() + 1);
+    fn scan(&self, scan: usize, changes: &[Change], ends: &mut Vec<Rc<End>>) -> Option<()> {
+        self.computed.set(self.computed.get() + 1);
         let changed = |&(input, value): &(VarId, u64)| {
             let change = changes.iter().find(|change| (change.scan, change.input) == (scan, input));
             (input, change.map_or(value, |change| change.to))
         };
         let inputs: Vec<(VarId, u64)> = self.trace.scans[scan].inputs.iter().map(changed).collect();
-        let end = match ends.last() {
-            Some(before) => self.space.scan_reading(before, &inputs)?,
-            None => self.space.scan_reading(&self.space.beginning(), &inputs)?,
+        let (space, before) = (&self.scans.base().space, ends.last());
+        let position = match before {
+            Some(before) => space.scan_reading(&before.position, &inputs)?,
+            None => space.scan_reading(&space.beginning(), &inputs)?,
         };
-        ends.push(Rc::new(end));
+        let packed = space.packed_position(&position);
+        let before = before.map(|before| (before.packed.as_slice(), before.memory.as_slice()));
+        let memory = self.scans.remember(before, &packed);
+        ends.push(Rc::new(End { position, packed, memory }));
         Some(())
     }
 }

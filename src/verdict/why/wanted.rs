@@ -2,8 +2,8 @@
 //! as its author wrote it, to the formula about one state that decides.
 
 use super::Broken;
-use super::decisive::decisive;
-use crate::logic::{Bound, Dag, Quantifier, along};
+use super::decisive::{Literal, decisive};
+use crate::logic::{Bound, Dag, Past, Quantifier, Term, along};
 use crate::semantics::VarId;
 
 /// What is told at most: sentences, and values in one of them.
@@ -69,7 +69,7 @@ impl Teller<'_> {
     fn stripped(&self, formula: &Bound, value: bool) -> (String, &'static str) {
         match formula {
             Bound::Not(inner) => self.stripped(inner, !value),
-            _ => (format!("`{}`", self.text(formula)), if value { "TRUE" } else { "FALSE" }),
+            _ => (format!("`{}`", self.text(formula)), truth(value)),
         }
     }
 
@@ -180,8 +180,13 @@ impl Teller<'_> {
     /// The break rests on what decides a formula at a position.
     fn rest(&mut self, formula: &Bound, at: usize) {
         if formula.is_state_formula() {
-            let variables = decisive(formula, &|part| self.holds(part, at));
-            self.told.literals.extend(variables.into_iter().map(|variable| (at, variable)));
+            for literal in decisive(formula, &|part| self.holds(part, at)) {
+                match literal {
+                    Literal::Now(variable) => self.told.literals.push((at, variable)),
+                    Literal::Before(variable) if at > 0 => self.told.literals.push((at - 1, variable)),
+                    Literal::Before(_) | Literal::Past(_) => {}
+                }
+            }
         }
     }
 
@@ -211,39 +216,48 @@ impl Teller<'_> {
     fn tell_literal(&mut self, formula: &Bound, value: bool, at: usize) {
         self.rest(formula, at);
         let text = self.text(formula);
-        match formula {
-            Bound::Variable(_) => {
-                let (had, is) = if value { ("FALSE", "TRUE") } else { ("TRUE", "FALSE") };
-                self.say(at, &format!("`{text}` had to be {had}"), &format!("it is {is}"));
-            }
-            _ => {
-                let wanted = if value { format!("`{text}` was not to hold") } else { format!("`{text}` had to hold") };
-                let facts = self.facts(formula, at);
-                self.say(at, &wanted, if facts.is_empty() { "that cannot be" } else { &facts });
-            }
+        if is_atom(formula) {
+            let (had, is) = if value { ("FALSE", "TRUE") } else { ("TRUE", "FALSE") };
+            return self.say(at, &format!("`{text}` had to be {had}"), &format!("it is {is}"));
         }
+        let wanted = if value { format!("`{text}` was not to hold") } else { format!("`{text}` had to hold") };
+        let facts = self.facts(formula, at);
+        self.say(at, &wanted, if facts.is_empty() { "that cannot be" } else { &facts });
     }
 
     /// The values that decide a formula: "`a` is TRUE and `Level` is 80".
     fn facts(&self, formula: &Bound, at: usize) -> String {
-        let program = &self.broken.view.system().program;
-        let variables = decisive(formula, &|part| self.holds(part, at));
-        let Some(space) = self.broken.view.scans() else { return String::new() };
-        let state = self.broken.graph.state(self.broken.evidence.states[at]);
-        let fact = |&id: &VarId| {
-            let (variable, value) = (program.variable(id), space.value(state, id));
-            let value = match (variable.ty.is_bool(), value) {
-                (true, 1) => "TRUE".to_owned(),
-                (true, _) => "FALSE".to_owned(),
-                _ => program.value_text(id, value),
-            };
-            format!("`{}` is {value}", variable.name)
-        };
-        let mut facts: Vec<String> = variables.iter().take(MOST).map(fact).collect();
-        if variables.len() > MOST {
-            facts.push(format!("{} more", variables.len() - MOST));
+        let literals = decisive(formula, &|part| self.holds(part, at));
+        let mut facts: Vec<String> = literals.iter().take(MOST).filter_map(|literal| self.fact(literal, at)).collect();
+        if literals.len() > MOST {
+            facts.push(format!("{} more", literals.len() - MOST));
         }
         enumerated(&facts)
+    }
+
+    fn fact(&self, literal: &Literal, at: usize) -> Option<String> {
+        let program = &self.broken.view.system().program;
+        let words = |id: VarId, value: u64| match (program.variable(id).ty.is_bool(), value) {
+            (true, value) => truth(value == 1).to_owned(),
+            (false, value) => program.value_text(id, value),
+        };
+        let value = |id: VarId, at: usize| {
+            let scans = self.broken.view.scans()?;
+            let (end, _) = scans.parts(self.broken.graph.state(self.broken.evidence.states[at]));
+            Some(words(id, scans.base().space.value(end, id)))
+        };
+        Some(match literal {
+            Literal::Now(id) => format!("`{}` is {}", program.variable(*id).name, value(*id, at)?),
+            Literal::Before(id) => {
+                let variable = program.variable(*id);
+                let earlier = match at.checked_sub(1) {
+                    Some(earlier) => value(*id, earlier)?,
+                    None => words(*id, variable.initial),
+                };
+                format!("`{}` was {earlier}", variable.name)
+            }
+            Literal::Past(formula) => format!("`{}` is {}", self.text(formula), truth(self.holds(formula, at))),
+        })
     }
 
     /// A sentence: what led to it, what was wanted, what there was. Each scan is named once.
@@ -263,6 +277,19 @@ impl Teller<'_> {
         let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
         self.told.sentences.push(first + letters.as_str());
     }
+}
+
+/// Whether a formula is told as something that is true or false by itself.
+fn is_atom(formula: &Bound) -> bool {
+    match formula {
+        Bound::Variable(_) | Bound::Bit(..) => true,
+        Bound::Compare(_, Term::Past(past), Term::Number(_)) => past.is_truth() || matches!(**past, Past::Run { .. }),
+        _ => false,
+    }
+}
+
+fn truth(value: bool) -> &'static str {
+    if value { "TRUE" } else { "FALSE" }
 }
 
 /// Whether one run shows that a formula that begins so has this value.

@@ -1,0 +1,80 @@
+//! What a requirement asks of a program, once its names mean something.
+
+use super::bind::{View, bind};
+use super::bound::Bound;
+use super::formula::{Amount, Duration, Expression, Formula};
+use super::parse::{Body, Requirement};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::translate::System;
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub enum Demand {
+    /// That a formula holds.
+    Formula(Bound),
+    /// That some scan comes to every line.
+    EveryLine,
+}
+
+impl Demand {
+    /// The formula, if it is one.
+    #[must_use]
+    pub fn formula(&self) -> Option<&Bound> {
+        match self {
+            Self::Formula(formula) => Some(formula),
+            Self::EveryLine => None,
+        }
+    }
+}
+
+/// Binds what a requirement asks for.
+///
+/// # Errors
+/// As for [`bind`]; and what the view does not have.
+pub fn bind_requirement(requirement: &Requirement, system: &System, view: View) -> Result<Demand, Vec<Diagnostic>> {
+    match &requirement.body {
+        Body::Formula(formula) => bind(formula, system, view).map(Demand::Formula),
+        Body::EveryLine if view == View::Scan => Ok(Demand::EveryLine),
+        Body::EveryLine => {
+            let message = "whether every line is reachable is checked in the scan view only";
+            let help = "in the transition view, ask for `EF at line 1`, `EF at line 2`, …";
+            Err(vec![Diagnostic::new(Code::RequirementView, requirement.span, message).help(help)])
+        }
+    }
+}
+
+impl Requirement {
+    /// Whether it speaks of times, so that its truth depends on how long a scan takes.
+    #[must_use]
+    pub fn speaks_of_time(&self) -> bool {
+        matches!(&self.body, Body::Formula(formula) if formula.speaks_of_time())
+    }
+}
+
+impl Formula {
+    fn speaks_of_time(&self) -> bool {
+        let timed = |duration: &Duration| matches!(duration.amount, Amount::Milliseconds(_));
+        match &self.expression {
+            Expression::Held(f, duration) | Expression::Within(f, duration) => timed(duration) || f.speaks_of_time(),
+            Expression::Response(f, g, duration) => timed(duration) || f.speaks_of_time() || g.speaks_of_time(),
+            Expression::Not(f) | Expression::Temporal(_, _, f) => f.speaks_of_time(),
+            Expression::And(f, g)
+            | Expression::Or(f, g)
+            | Expression::Implies(f, g)
+            | Expression::Iff(f, g)
+            | Expression::Compare(_, f, g)
+            | Expression::Sum(f, g)
+            | Expression::Difference(f, g)
+            | Expression::Product(f, g)
+            | Expression::Until { hold: f, release: g, .. } => f.speaks_of_time() || g.speaks_of_time(),
+            Expression::Past(_, of) => of.iter().any(Self::speaks_of_time),
+            _ => false,
+        }
+    }
+}
+
+impl From<Bound> for Demand {
+    fn from(formula: Bound) -> Self {
+        Self::Formula(formula)
+    }
+}

@@ -1,0 +1,190 @@
+//! What a formula knows of the scans before: terms about the past, and what has to be remembered for them.
+//!
+//! A *memory* has one number for each such term. The memory of a state follows from a *message*, which is made of the state before
+//! and its memory, and from the state itself. Before the first scan there is power-on, with the initial values of the variables.
+
+use std::sync::Arc;
+
+use super::bound::{Bound, Term, Valuation};
+
+/// A term about the scans so far, with no temporal part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Past {
+    /// 1 in the first scan, else 0.
+    First,
+    /// The value of the term at the end of the scan before; in the first scan, its value at power-on.
+    Before(Term),
+    /// 1 if the second is or was true and the first has been true ever since, else 0.
+    Since(Bound, Bound),
+    /// For how many scans in a row the formula has been true, this one included; `most` at most.
+    Run {
+        /// The formula.
+        of: Bound,
+        /// What the number does not exceed.
+        most: u32,
+    },
+}
+
+impl Past {
+    /// A bound of the absolute value.
+    #[must_use]
+    pub fn magnitude(&self) -> u128 {
+        match self {
+            Self::First | Self::Since(..) => 1,
+            // Binding sees to it that this is known, and fits a memory.
+            Self::Before(term) => term.magnitude().unwrap_or(u128::from(u64::MAX)),
+            Self::Run { most, .. } => u128::from(*most),
+        }
+    }
+
+    /// Whether it stands for a truth value.
+    #[must_use]
+    pub fn is_truth(&self) -> bool {
+        matches!(self, Self::First | Self::Since(..) | Self::Before(Term::Truth(_)))
+    }
+}
+
+/// The terms about the past that some formulas have, those inside others first.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct History {
+    pasts: Vec<Arc<Past>>,
+}
+
+impl History {
+    /// What these formulas know of the past.
+    #[must_use]
+    pub fn of<'f>(formulas: impl IntoIterator<Item = &'f Bound>) -> Self {
+        let mut history = Self::default();
+        formulas.into_iter().for_each(|formula| history.add_formula(formula));
+        history
+    }
+
+    /// Whether they know nothing of it.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.pasts.is_empty()
+    }
+
+    /// How many numbers a memory has.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.pasts.len()
+    }
+
+    /// The terms.
+    pub fn pasts(&self) -> impl Iterator<Item = &Past> {
+        self.pasts.iter().map(|past| &**past)
+    }
+
+    /// Where a memory has the number of a term.
+    #[must_use]
+    pub fn position(&self, past: &Past) -> Option<usize> {
+        self.pasts.iter().position(|known| std::ptr::eq(&**known, past) || **known == *past)
+    }
+
+    fn add_formula(&mut self, formula: &Bound) {
+        match formula {
+            Bound::Truth(_)
+            | Bound::Variable(_)
+            | Bound::Bit(..)
+            | Bound::Marked(_)
+            | Bound::Enabled(_)
+            | Bound::Deadlock => {}
+            Bound::Compare(_, a, b) => {
+                self.add_term(a);
+                self.add_term(b);
+            }
+            Bound::Not(f) | Bound::Next(_, f) => self.add_formula(f),
+            Bound::And(f, g)
+            | Bound::Or(f, g)
+            | Bound::Implies(f, g)
+            | Bound::Iff(f, g)
+            | Bound::Until { hold: f, release: g, .. } => {
+                self.add_formula(f);
+                self.add_formula(g);
+            }
+        }
+    }
+
+    fn add_term(&mut self, term: &Term) {
+        match term {
+            Term::Number(_) | Term::Variable(..) | Term::Bits { .. } | Term::Tokens(_) => {}
+            Term::Truth(f) => self.add_formula(f),
+            Term::Sum(a, b) | Term::Difference(a, b) | Term::Product(a, b) => {
+                self.add_term(a);
+                self.add_term(b);
+            }
+            Term::Past(past) => {
+                match &**past {
+                    Past::First => {}
+                    Past::Before(term) => self.add_term(term),
+                    Past::Since(f, g) => {
+                        self.add_formula(f);
+                        self.add_formula(g);
+                    }
+                    Past::Run { of, .. } => self.add_formula(of),
+                }
+                if self.position(past).is_none() {
+                    self.pasts.push(Arc::clone(past));
+                }
+            }
+        }
+    }
+
+    /// The message of power-on, for the first scan.
+    pub fn beginning(&self, power_on: &dyn Fn(&Term, &[u64]) -> i128) -> Vec<u64> {
+        let mut memory = vec![0; self.len()];
+        for (position, past) in self.pasts().enumerate() {
+            if let Past::Before(term) = past {
+                memory[position] = number(power_on(term, &memory));
+            }
+        }
+        let mut message = vec![0; self.len()];
+        for (position, past) in self.pasts().enumerate() {
+            message[position] = match past {
+                Past::First => 1,
+                Past::Before(term) => number(power_on(term, &memory)),
+                Past::Since(..) | Past::Run { .. } => 0,
+            };
+        }
+        message
+    }
+
+    /// What a state with a memory tells the next one.
+    pub fn message(&self, state: &impl Valuation, memory: &[u64], message: &mut Vec<u64>) {
+        message.clear();
+        message.extend(self.pasts().zip(memory).map(|(past, &remembered)| match past {
+            Past::First => 0,
+            Past::Before(term) => number(term.value_in(state).unwrap_or_default()),
+            Past::Since(..) | Past::Run { .. } => remembered,
+        }));
+    }
+
+    /// One number of the memory of a state that gets a message. `state` gives what stands before in the memory already.
+    pub fn remember(&self, position: usize, message: &[u64], state: &impl Valuation) -> u64 {
+        let told = message[position];
+        let holds = |formula: &Bound| formula.holds_in(state).unwrap_or(false);
+        match &*self.pasts[position] {
+            Past::First | Past::Before(_) => told,
+            Past::Since(f, g) => u64::from(holds(g) || told == 1 && holds(f)),
+            Past::Run { of, most } => {
+                if holds(of) {
+                    (told + 1).min(u64::from(*most))
+                } else {
+                    0
+                }
+            }
+        }
+    }
+}
+
+/// A number as a memory has it.
+fn number(number: i128) -> u64 {
+    number as i64 as u64
+}
+
+/// The number that a memory has.
+#[must_use]
+pub fn remembered(word: u64) -> i128 {
+    i128::from(word as i64)
+}

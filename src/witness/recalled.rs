@@ -1,0 +1,99 @@
+//! What a replayed run says of the past, by the definitions: every question goes back through the scans again.
+
+use crate::logic::{Bound, Past, Valuation};
+use crate::net::{PlaceId, TransitionId};
+use crate::semantics::VarId;
+
+/// The values of the variables at power-on and at the ends of the scans so far, as the net had them.
+#[derive(Clone, Debug)]
+pub struct Recalled {
+    power_on: Vec<u64>,
+    ends: Vec<Vec<u64>>,
+}
+
+impl Recalled {
+    /// No scan yet.
+    #[must_use]
+    pub fn new(power_on: Vec<u64>) -> Self {
+        Self { power_on, ends: Vec::new() }
+    }
+
+    /// A scan has ended with these values.
+    pub fn push(&mut self, memory: Vec<u64>) {
+        self.ends.push(memory);
+    }
+
+    /// Whether a formula about this scan and those before it holds at the end of the last scan; `None` for a temporal formula.
+    #[must_use]
+    pub fn holds(&self, formula: &Bound) -> Option<bool> {
+        formula.holds_in(&self.at(self.ends.len().checked_sub(1)))
+    }
+
+    /// The value of a term about the past at the end of the last scan.
+    #[must_use]
+    pub fn past(&self, past: &Past) -> i128 {
+        self.at(self.ends.len().checked_sub(1)).past(past)
+    }
+
+    /// The end of a scan, from 0; `None` is power-on.
+    fn at(&self, scan: Option<usize>) -> At<'_> {
+        At { recalled: self, scan }
+    }
+}
+
+/// A moment of a run.
+struct At<'r> {
+    recalled: &'r Recalled,
+    scan: Option<usize>,
+}
+
+impl At<'_> {
+    fn holds(&self, formula: &Bound) -> bool {
+        formula.holds_in(self).unwrap_or(false)
+    }
+}
+
+impl Valuation for At<'_> {
+    fn value(&self, variable: VarId) -> u64 {
+        let memory = self.scan.map_or(&self.recalled.power_on, |scan| &self.recalled.ends[scan]);
+        memory[variable.0]
+    }
+
+    fn past(&self, past: &Past) -> i128 {
+        let at = |scan: usize| self.recalled.at(Some(scan));
+        match past {
+            Past::First => i128::from(self.scan == Some(0)),
+            Past::Before(term) => {
+                // Before power-on, everything was as it is then.
+                let before = self.recalled.at(self.scan.and_then(|scan| scan.checked_sub(1)));
+                term.value_in(&before).unwrap_or_default()
+            }
+            Past::Since(f, g) => {
+                let Some(now) = self.scan else { return 0 };
+                let begins = (0..=now).any(|then| at(then).holds(g) && (then + 1..=now).all(|scan| at(scan).holds(f)));
+                i128::from(begins)
+            }
+            Past::Run { of, most } => {
+                let Some(now) = self.scan else { return 0 };
+                let run = (0..=now).rev().take_while(|&scan| at(scan).holds(of)).count();
+                (run as i128).min(i128::from(*most))
+            }
+        }
+    }
+
+    fn is_marked(&self, _: PlaceId) -> bool {
+        false
+    }
+
+    fn tokens(&self, _: PlaceId) -> u64 {
+        0
+    }
+
+    fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
+
+    fn is_deadlock(&self) -> bool {
+        false
+    }
+}
