@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use petril::exchange::json;
-use petril::logic::{self, Assumption, Demand, Requirement, representatives};
+use petril::logic::{self, Assertion, Assumption, Demand, Requirement, representatives};
 use petril::translate::System;
 use petril::verdict::{Options, Verdict, check};
 
@@ -33,9 +33,9 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     let domains = asked.domains(&program, &plant);
     let mut system = System::with_domains(program, plant, domains);
-    let Bound { requirements, assumptions } = asked.bind(&system, view, console)?;
+    let Bound { requirements, assumptions, assertions } = asked.bind(&system, view, console)?;
     if view == logic::View::Scan {
-        system = with_representatives(system, &requirements, &assumptions);
+        system = with_representatives(system, &requirements, &assumptions, &assertions);
     }
     let watcher = Watcher::new(&arguments.limits)?;
     let options = Options {
@@ -44,6 +44,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         budget: arguments.limits.budget(),
         tolerated: arguments.meaning.tolerated(),
         assumptions,
+        assertions,
     };
     let result = check(&system, &requirements, &options, &mut |progress| watcher.watch(progress));
     watcher.finish();
@@ -61,9 +62,15 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
 }
 
 /// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.
-fn with_representatives(system: System, asked: &[(Requirement, Demand)], assumptions: &[Assumption]) -> System {
+fn with_representatives(
+    system: System,
+    asked: &[(Requirement, Demand)],
+    assumptions: &[Assumption],
+    assertions: &[Assertion],
+) -> System {
     let asked = asked.iter().filter_map(|(_, demand)| demand.formula());
-    let formulas: Vec<_> = asked.chain(assumptions.iter().map(|assumption| &assumption.formula)).collect();
+    let assumed = assumptions.iter().map(|assumption| &assumption.formula);
+    let formulas: Vec<_> = asked.chain(assumed).chain(assertions.iter().map(|assertion| &assertion.formula)).collect();
     let mut found = representatives(&system, &formulas);
     if found.is_empty() {
         return system;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::flat::FlatProgram;
 use petril::logic::{
-    Assumption, Demand, Requirement, RequirementFile, View, bind_assumption, bind_domain, bind_requirement,
-    parse_domain, parse_requirement, parse_requirements,
+    Assertion, Assumption, Demand, Requirement, RequirementFile, View, bind_assertion, bind_assumption, bind_domain,
+    bind_requirement, parse_domain, parse_requirement, parse_requirements,
 };
 use petril::source::Source;
 use petril::syntax;
@@ -22,6 +22,8 @@ struct Text {
     file: RequirementFile,
     diagnostics: Vec<Diagnostic>,
     source: Source,
+    /// Whether it stands in the comments of the program.
+    is_program: bool,
 }
 
 /// All that is asked, in the order in which it is answered.
@@ -34,6 +36,7 @@ pub struct Asked {
 pub struct Bound {
     pub requirements: Vec<(Requirement, Demand)>,
     pub assumptions: Vec<Assumption>,
+    pub assertions: Vec<Assertion>,
 }
 
 impl Asked {
@@ -43,7 +46,12 @@ impl Asked {
         for (i, text) in arguments.domain.iter().enumerate() {
             let source = Source::new(format!("domain {}", i + 1), text.as_str());
             let (domains, diagnostics) = split(parse_domain(&source));
-            asked.texts.push(Text { file: RequirementFile { domains, ..Default::default() }, diagnostics, source });
+            asked.texts.push(Text {
+                file: RequirementFile { domains, ..Default::default() },
+                diagnostics,
+                source,
+                is_program: false,
+            });
         }
         for (i, text) in arguments.requirement.iter().enumerate() {
             let name = format!("r{}", i + 1);
@@ -53,6 +61,7 @@ impl Asked {
                 file: RequirementFile { requirements, ..Default::default() },
                 diagnostics,
                 source,
+                is_program: false,
             });
         }
         for file in &arguments.require {
@@ -68,13 +77,16 @@ impl Asked {
     /// Reads what stands in the comments of a program.
     pub fn read_comments(&mut self, program: &Source) {
         if let Some(text) = syntax::requirements_in_comments(program.text()) {
-            self.read_text(Source::new(program.name().to_owned(), text));
+            let (file, diagnostics) = parse_requirements(&Source::new(program.name().to_owned(), text));
+            // Everything stands where it stands in the program.
+            let source = Source::new(program.name().to_owned(), program.text());
+            self.texts.push(Text { file, diagnostics, source, is_program: true });
         }
     }
 
     fn read_text(&mut self, source: Source) {
         let (file, diagnostics) = parse_requirements(&source);
-        self.texts.push(Text { file, diagnostics, source });
+        self.texts.push(Text { file, diagnostics, source, is_program: false });
     }
 
     /// The plants that files name, as paths from where the program runs.
@@ -113,11 +125,25 @@ impl Asked {
     /// Everything else, bound.
     pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
-        let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new() };
-        for Text { file, mut diagnostics, source } in self.texts {
+        let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new(), assertions: Vec::new() };
+        for Text { file, mut diagnostics, source, is_program } in self.texts {
             for assumption in &file.assumptions {
                 match bind_assumption(assumption, system, view) {
                     Ok(assumption) => bound.assumptions.push(assumption),
+                    Err(errors) => diagnostics.extend(errors),
+                }
+            }
+            for assertion in &file.assertions {
+                let elsewhere = || {
+                    let message = "an assertion stands in the program, before an instruction";
+                    let help =
+                        "write it there as `(*@ assert …; *)`; here, a requirement is `requirement name: AG (…);`";
+                    Err(vec![Diagnostic::new(Code::AssertionUnfit, assertion.span, message).help(help)])
+                };
+                let assertion =
+                    if is_program { bind_assertion(assertion, source.text(), system, view) } else { elsewhere() };
+                match assertion {
+                    Ok(assertion) => bound.assertions.push(assertion),
                     Err(errors) => diagnostics.extend(errors),
                 }
             }

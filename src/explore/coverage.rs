@@ -60,7 +60,7 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut
 }
 
 /// States whose scans are all there are: power-on, which is `None`, and the first state of each row.
-fn starts(graph: &Graph) -> Vec<Option<u32>> {
+pub(super) fn starts(graph: &Graph) -> Vec<Option<u32>> {
     let mut rows = BTreeSet::new();
     let firsts = graph.ids().filter(|&id| graph.row_of(id).is_some_and(|row| rows.insert(row))).map(Some);
     std::iter::once(None).chain(firsts).collect()

@@ -4,6 +4,7 @@
 //! the [`engine`]; and that of its [`ScanSpace`], where a step is one scan (the scan view), explored by [`explore`], which knows
 //! nothing of programs.
 
+mod asserted;
 mod budget;
 mod circuit;
 mod components;
@@ -25,6 +26,7 @@ mod table;
 mod tarjan;
 mod walk;
 
+pub use asserted::{Seen, first_at_lines};
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
 pub use coverage::never_executed;

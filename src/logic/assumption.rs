@@ -1,5 +1,6 @@
 //! What is assumed of the inputs of each scan: scans that begin otherwise are not explored.
 
+use super::assertion::Assertion;
 use super::bind::{View, bind};
 use super::bound::{Bound, Term, Valuation};
 use super::parse::AssumptionText;
@@ -38,13 +39,11 @@ pub fn bind_assumption(text: &AssumptionText, system: &System, view: View) -> Re
         return unfit("an assumption cannot look ahead", "say what inputs do in one scan, like `!(S1 & O1)`");
     }
     let mut computed = None;
-    let mut deep = false;
     visit(&formula, false, &mut |atom| match atom {
         Atom::Now(variable) if system.program.variable(variable).role != Role::Input => {
             computed.get_or_insert(variable);
         }
-        Atom::TooDeep => deep = true,
-        Atom::Now(_) | Atom::Before(_) => {}
+        _ => {}
     });
     if let Some(variable) = computed {
         let name = &system.program.variable(variable).name;
@@ -52,12 +51,19 @@ pub fn bind_assumption(text: &AssumptionText, system: &System, view: View) -> Re
         let help = format!("speak of the end of the scan before: `pre({name})`");
         return unfit(&message, &help);
     }
-    if deep {
+    if !looks_back_one_scan(&formula) {
         let help = "`pre(…)` of variables, and `rising`, `falling` and `changed`, look back one scan";
         return unfit("an assumption can look back one scan only", help);
     }
     let AssumptionText { name, sentence, text, .. } = text.clone();
     Ok(Assumption { name, sentence, text, formula })
+}
+
+/// Whether a formula about one state speaks of nothing before the end of the scan before.
+pub(super) fn looks_back_one_scan(formula: &Bound) -> bool {
+    let mut deep = false;
+    visit(formula, false, &mut |atom| deep |= matches!(atom, Atom::TooDeep));
+    !deep
 }
 
 /// What an assumption speaks of.
@@ -108,18 +114,30 @@ fn visit_term(term: &Term, before: bool, at: &mut dyn FnMut(Atom)) {
 }
 
 /// Assumptions as the search asks for them.
-pub struct Assumed<'a>(pub &'a [Assumption]);
+pub struct Assumed<'a> {
+    /// What is assumed.
+    pub assumptions: &'a [Assumption],
+    /// What is asserted within scans: values from before are seen there, whether the program looks at them or not.
+    pub assertions: &'a [Assertion],
+}
 
 impl Admission for Assumed<'_> {
     fn admits(&self, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64) -> bool {
-        self.0.iter().all(|assumption| assumption.formula.holds_in(&Beginning { before, now }).unwrap_or(false))
+        self.assumptions.iter().all(|assumption| assumption.formula.holds_in(&Moment { before, now }).unwrap_or(false))
     }
 
     fn recalls(&self) -> Vec<VarId> {
         let mut recalled = Vec::new();
-        for assumption in self.0 {
+        for assumption in self.assumptions {
             visit(&assumption.formula, false, &mut |atom| {
                 if let Atom::Before(variable) = atom {
+                    recalled.push(variable);
+                }
+            });
+        }
+        for assertion in self.assertions {
+            visit(&assertion.formula, false, &mut |atom| {
+                if let Atom::Before(variable) | Atom::Now(variable) = atom {
                     recalled.push(variable);
                 }
             });
@@ -128,13 +146,15 @@ impl Admission for Assumed<'_> {
     }
 }
 
-/// The beginning of a scan.
-struct Beginning<'a> {
-    before: &'a dyn Fn(VarId) -> u64,
-    now: &'a dyn Fn(VarId) -> u64,
+/// A moment of a scan, for what looks back to the end of the scan before and no further.
+pub struct Moment<'a> {
+    /// The values at the end of the scan before, or at power-on.
+    pub before: &'a dyn Fn(VarId) -> u64,
+    /// The values at the moment.
+    pub now: &'a dyn Fn(VarId) -> u64,
 }
 
-impl Valuation for Beginning<'_> {
+impl Valuation for Moment<'_> {
     fn value(&self, variable: VarId) -> u64 {
         (self.now)(variable)
     }
@@ -142,7 +162,7 @@ impl Valuation for Beginning<'_> {
     fn past(&self, past: &Past) -> i128 {
         match past {
             Past::Before(term) => {
-                let then = Beginning { before: self.before, now: self.before };
+                let then = Moment { before: self.before, now: self.before };
                 term.value_in(&then).unwrap_or_default()
             }
             Past::First | Past::Since(..) | Past::Run { .. } => 0,

@@ -5,6 +5,7 @@
 //! ```
 
 mod along;
+mod assertion;
 mod assumption;
 mod bind;
 mod bound;
@@ -26,7 +27,8 @@ mod vacuity;
 mod valuations;
 
 pub use along::along;
-pub use assumption::{Assumed, Assumption, bind_assumption};
+pub use assertion::{Assertion, bind_assertion};
+pub use assumption::{Assumed, Assumption, Moment, bind_assumption};
 pub use bind::{Nodes, View, bind, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};

@@ -1,5 +1,7 @@
 //! A system and requirements to a report: one exploration, then every requirement on its graph.
 
+use std::sync::atomic::AtomicBool;
+
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
@@ -12,11 +14,12 @@ use super::remarks::remarks;
 use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::why::{Broken, why};
-use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, every_line, hazards, scan_ends};
+use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, asserted, every_line, hazards, scan_ends};
 use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
 use crate::logic::{
-    Assumed, Assumption, Bound, Dag, Demand, History, Node, NodeId, Quantifier, Requirement, View, evidence, label,
+    Assertion, Assumed, Assumption, Bound, Dag, Demand, History, Node, NodeId, Quantifier, Requirement, View, evidence,
+    label,
 };
 use crate::translate::{PlaceRole, System};
 
@@ -33,13 +36,15 @@ pub struct Options {
     pub tolerated: Tolerated,
     /// What is assumed of the inputs of each scan, in the scan view.
     pub assumptions: Vec<Assumption>,
+    /// What is asserted at lines of the program.
+    pub assertions: Vec<Assertion>,
 }
 
 impl Default for Options {
     /// The scan view, no hazard tolerated, and nothing assumed.
     fn default() -> Self {
         let (budget, tolerated) = (Budget::default(), Tolerated::default());
-        Self { view: View::Scan, fair: false, budget, tolerated, assumptions: Vec::new() }
+        Self { view: View::Scan, fair: false, budget, tolerated, assumptions: Vec::new(), assertions: Vec::new() }
     }
 }
 
@@ -64,21 +69,25 @@ fn check_scans(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Report {
-    let assumed = Assumed(&options.assumptions);
-    let admission = (!options.assumptions.is_empty()).then_some(&assumed as &dyn Admission);
+    let Options { assumptions, assertions, .. } = options;
+    let assumed = Assumed { assumptions, assertions };
+    let is_needed = !assumptions.is_empty() || !assertions.is_empty();
+    let admission = is_needed.then_some(&assumed as &dyn Admission);
     let space = ScanSpace::assuming(system, options.tolerated, admission);
     let graph = explore(&space, options.budget, watch);
     let view = ScanView { space, graph, assumptions: &options.assumptions };
     let outcomes = outcomes(&view, requirements, options, watch);
     let ScanView { space, graph, .. } = &view;
+    let asserted = asserted::answers(&view, &options.assertions, &AtomicBool::new(false));
     let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
     let hazards = hazards::checked(&system.program, options.tolerated)
         .map(|hazard| hazards::answer(hazard, hazards::on_scans(space, graph, hazard)));
-    let inputs = admission.map(|_| admitted::answer(admitted::outcome(&view)));
+    let inputs = (!assumptions.is_empty()).then(|| admitted::answer(admitted::outcome(&view)));
     let never = whole(graph).and_then(|graph| never_executed(space, graph, &mut || watch(&done(graph)).is_some()));
     let formulas = requirements.iter().filter_map(|(_, demand)| demand.formula());
+    let formulas = formulas.chain(assertions.iter().map(|assertion| &assertion.formula));
     Report {
-        answers: answers(system, requirements, options, outcomes),
+        answers: answers(system, requirements, options, outcomes).into_iter().chain(asserted).collect(),
         checks: ends.chain(hazards).chain(inputs).collect(),
         remarks: remarks(space, graph, never.as_deref().unwrap_or_default()),
         coverage: Some(coverage(system, formulas, never)),
@@ -162,7 +171,11 @@ fn check_markings(
         Demand::Formula(formula) => judge.outcome(formula),
         Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
     });
-    let answers = answers(system, requirements, options, outcomes.collect());
+    let asserted = options.assertions.iter().map(|assertion| {
+        let outcome = judge.outcome(&assertion.as_formula(system));
+        asserted::answer(assertion, outcome)
+    });
+    let answers = answers(system, requirements, options, outcomes.collect()).into_iter().chain(asserted).collect();
     let unfair = Judge { fair: None, ..judge };
     let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
     let hazards = hazards::checked(&system.program, options.tolerated)

@@ -2,6 +2,7 @@
 
 mod admitted;
 mod answer;
+mod asserted;
 mod assumptions;
 mod check;
 mod coverage;

@@ -29,6 +29,12 @@ impl Recalled {
         formula.holds_in(&self.at(self.ends.len().checked_sub(1)))
     }
 
+    /// The value of a variable at the end of the last scan; at power-on if there was none.
+    #[must_use]
+    pub fn value(&self, variable: VarId) -> u64 {
+        self.at(self.ends.len().checked_sub(1)).value(variable)
+    }
+
     /// The value of a term about the past at the end of the last scan.
     #[must_use]
     pub fn past(&self, past: &Past) -> i128 {

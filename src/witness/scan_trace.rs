@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::recalled::Recalled;
 use super::replay::{Disagreement, Replay};
-use crate::explore::{Failure, ScanSpace, ScanState};
+use crate::explore::{Failure, ScanRun, ScanSpace, ScanState};
 use crate::flat::Hazard;
 use crate::logic::Bound;
 use crate::semantics::{Role, VarId};
@@ -42,6 +42,19 @@ pub struct PlantMove {
     pub transition: usize,
 }
 
+/// The trace along packed scan states, as [`scan_trace`] makes it, and one more scan: the first from there that `pick` picks.
+#[must_use]
+pub fn scan_trace_to(
+    space: &ScanSpace<'_>,
+    states: &[&[u64]],
+    pick: &dyn Fn(&ScanRun<'_>) -> bool,
+) -> Option<ScanTrace> {
+    let mut trace = scan_trace(space, states, None, None);
+    let before = states.last().map_or_else(|| space.power_on(), |state| space.unpack(state));
+    trace.scans.push(picked(space, &before, pick)?);
+    Some(trace)
+}
+
 /// The trace of packed scan states that follow one another, the first being one after the first scan.
 ///
 /// With `loop_start`, one more scan leads back to the state at that position. With `failing`, the trace goes on with a scan
@@ -66,22 +79,29 @@ pub fn scan_trace(
         before = end;
     }
     if failing.is_some() {
-        let mut last = None;
-        space.scans(&before, &mut |run| {
-            if run.end.err() == failing && last.is_none() {
-                let inputs = inputs(&|input| run.machine.value(input));
-                let memory = || (0..system.program.variables.len()).map(|id| run.machine.value(VarId(id))).collect();
-                let end = run.machine.at_end().then(|| ScanState { plant: run.plant.to_vec(), memory: memory() });
-                let hazard = match failing {
-                    Some(Failure::Hazard(line, hazard)) => Some((line, hazard)),
-                    _ => None,
-                };
-                last = Some(Scan { moves: moves(system, &before, run.plant), inputs, end, hazard });
-            }
-        });
-        scans.extend(last);
+        scans.extend(picked(space, &before, &|run| run.end.err() == failing));
     }
     ScanTrace { scans, loop_start }
+}
+
+/// The first scan from a state that `pick` picks.
+fn picked(space: &ScanSpace<'_>, before: &ScanState, pick: &dyn Fn(&ScanRun<'_>) -> bool) -> Option<Scan> {
+    let system = space.system();
+    let mut picked = None;
+    space.scans(before, &mut |run| {
+        if picked.is_some() || !pick(&run) {
+            return;
+        }
+        let inputs = system.program.with_role(Role::Input).map(|input| (input, run.machine.value(input))).collect();
+        let memory = || (0..system.program.variables.len()).map(|id| run.machine.value(VarId(id))).collect();
+        let end = run.machine.at_end().then(|| ScanState { plant: run.plant.to_vec(), memory: memory() });
+        let hazard = match run.end {
+            Err(Failure::Hazard(line, hazard)) => Some((line, hazard)),
+            _ => None,
+        };
+        picked = Some(Scan { moves: moves(system, before, run.plant), inputs, end, hazard });
+    });
+    picked
 }
 
 /// What brings the plant from its state at the end of a scan to the given markings.
@@ -104,6 +124,20 @@ pub type Holds<'a> = &'a dyn Fn(&Bound) -> Option<bool>;
 pub fn replay_scans(
     system: &System,
     trace: &ScanTrace,
+    at_end: impl FnMut(usize, &Recalled) -> Result<(), Disagreement>,
+) -> Result<(), Disagreement> {
+    replay_lines(system, trace, |_, _, _| {}, at_end)
+}
+
+/// As [`replay_scans`], and calls `at_line` whenever control comes to a line, with the position of the scan, the run, and what is
+/// recalled of the scans before.
+///
+/// # Errors
+/// As for [`replay_scans`].
+pub fn replay_lines(
+    system: &System,
+    trace: &ScanTrace,
+    mut at_line: impl FnMut(usize, &Replay<'_>, &Recalled),
     mut at_end: impl FnMut(usize, &Recalled) -> Result<(), Disagreement>,
 ) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
@@ -123,6 +157,9 @@ pub fn replay_scans(
         }
         let mut seen = BTreeSet::new();
         while !replay.is_at(end_place) && (replay.is_within_line() || seen.insert(replay.marking().clone())) {
+            if !replay.is_within_line() {
+                at_line(position, &replay, &recalled);
+            }
             replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
             if scan.end.is_none() && scan.hazard.is_some_and(|hazard| replay.hazards().contains(&hazard)) {
                 return Ok(());
