@@ -8,5 +8,6 @@ fn sessions_go_as_shown() {
         .case("docs/requirements.md")
         .case("docs/examples.md")
         .case("docs/nets.md")
-        .env("RUST_BACKTRACE", "0");
+        .env("RUST_BACKTRACE", "0")
+        .env("LC_ALL", "C.UTF-8");
 }

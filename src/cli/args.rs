@@ -101,9 +101,15 @@ pub struct Check {
     /// Tell the last scan of each counterexample line by line, with the current result.
     #[arg(long)]
     pub by_line: bool,
-    /// Print the runs that show what is possible, too (for EF and its like).
+    /// Tell everything of each counterexample: a timing diagram, and the last scan line by line; and what was modelled.
+    #[arg(long)]
+    pub details: bool,
+    /// Print the runs that show what is possible, too (for EF and its like), and an example of each requirement's premise.
     #[arg(long)]
     pub witnesses: bool,
+    /// Draw timing diagrams in ASCII alone.
+    #[arg(long)]
+    pub ascii: bool,
     /// What the program means on its PLC.
     #[command(flatten)]
     pub meaning: Meaning,

@@ -19,6 +19,10 @@ pub struct Console {
     errors_in_colour: bool,
     output_in_colour: bool,
     width: usize,
+    /// Columns that results should keep to: those of the terminal they go to, or that are asked for.
+    output_width: Option<usize>,
+    /// Whether results may have other characters than ASCII.
+    has_unicode: bool,
     /// The diagnostics printed so far, for those who want JSON.
     printed: RefCell<Vec<Value>>,
 }
@@ -35,6 +39,8 @@ impl Console {
             errors_in_colour: wanted(io::stderr().is_terminal()),
             output_in_colour: wanted(io::stdout().is_terminal()),
             width,
+            output_width: console_width().or_else(terminal_width),
+            has_unicode: locale_has_unicode(),
             printed: RefCell::default(),
         }
     }
@@ -80,6 +86,16 @@ impl Console {
         self.print(&format!("{document:#}\n"))
     }
 
+    /// How wide a result may be; a pipe takes any width.
+    pub fn output_width(&self) -> usize {
+        self.output_width.unwrap_or(usize::MAX)
+    }
+
+    /// Whether a result may have other characters than ASCII.
+    pub fn has_unicode(&self) -> bool {
+        self.has_unicode
+    }
+
     /// A word of a result in the colour of its meaning.
     pub fn paint(&self, word: &str, colour: Colour) -> String {
         let code = match colour {
@@ -102,4 +118,17 @@ pub enum Colour {
 /// Columns of the terminal, if it says.
 fn console_width() -> Option<usize> {
     std::env::var("COLUMNS").ok()?.parse().ok().filter(|&width| width >= 40)
+}
+
+/// Columns of the terminal that results go to, if they go to one.
+fn terminal_width() -> Option<usize> {
+    let (terminal_size::Width(columns), _) = terminal_size::terminal_size_of(io::stdout())?;
+    Some(usize::from(columns)).filter(|&width| width >= 40)
+}
+
+/// Whether the locale says UTF-8, and the terminal is not a dumb one.
+fn locale_has_unicode() -> bool {
+    let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default().to_uppercase();
+    (locale.contains("UTF-8") || locale.contains("UTF8")) && set("TERM").is_none_or(|terminal| terminal != "dumb")
 }

@@ -88,9 +88,7 @@ fn answer(system: &System, answer: &Answer, view: View) -> Value {
     let witness = answer.outcome.witness();
     let reason = match &answer.outcome {
         Outcome::Unknown(reason) => Some(reason.clone()),
-        Outcome::Holds { vacuous: Some(premise), .. } => {
-            Some(format!("vacuous: `{premise}` is true in no reachable state"))
-        }
+        Outcome::Holds { vacuous: Some(vacuity), .. } => Some(format!("vacuous: {}", vacuity.sentence())),
         Outcome::Holds { .. } => None,
         Outcome::Violated(witness, _) => {
             Some(witness.notes.iter().map(|note| note.sentence(view)).collect::<Vec<_>>().join("; "))

@@ -13,9 +13,12 @@ use crate::flat::{Condition, FlatProgram, Instruction};
 /// States looked at one after another before all are looked at: mostly every line is seen soon.
 const FIRST: usize = 256;
 
-/// The lines, from 0, that control could come to but never does. The graph must be a complete one of the space.
-#[must_use]
-pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph) -> Vec<usize> {
+/// States looked at between two questions whether to stop.
+const BATCH: usize = 256 * FIRST;
+
+/// The lines, from 0, that control could come to but never does. The graph must be a complete one of the space. `stop` is asked now
+/// and then; if it says so, nothing is known.
+pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut() -> bool) -> Option<Vec<usize>> {
     let program = &space.system().program;
     let possible = possible_lines(program);
     let has_choice = |line: usize| {
@@ -23,7 +26,7 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph) -> Vec<usize> {
         matches!(code, Some(Instruction::Jump { condition, .. }) if condition != Condition::Always)
     };
     if !possible.ones().any(has_choice) {
-        return Vec::new();
+        return Some(Vec::new());
     }
     let starts = starts(graph);
     let mut executed = FixedBitSet::with_capacity(program.end() + 1);
@@ -31,7 +34,7 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph) -> Vec<usize> {
     for state in first {
         execute(space, &space.state(*state, graph), &mut executed);
         if possible.is_subset(&executed) {
-            return Vec::new();
+            return Some(Vec::new());
         }
     }
     let none = || FixedBitSet::with_capacity(program.end() + 1);
@@ -44,8 +47,16 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph) -> Vec<usize> {
         }
         executed
     };
-    executed.union_with(&rest.par_chunks(FIRST).map(piece).reduce(none, |a, b| &a | &b));
-    possible.difference(&executed).collect()
+    for batch in rest.chunks(BATCH) {
+        if stop() {
+            return None;
+        }
+        executed.union_with(&batch.par_chunks(FIRST).map(piece).reduce(none, |a, b| &a | &b));
+        if possible.is_subset(&executed) {
+            break;
+        }
+    }
+    Some(possible.difference(&executed).collect())
 }
 
 /// States whose scans are all there are: power-on, which is `None`, and the first state of each row.

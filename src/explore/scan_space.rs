@@ -150,10 +150,17 @@ impl<'s> ScanSpace<'s> {
         state
     }
 
-    fn pack(&self, plant: &[usize], machine: &Machine<'_>, state: &mut [u64]) {
+    fn pack(&self, plant: &[usize], value: impl Fn(VarId) -> u64, state: &mut [u64]) {
         state.fill(0);
         self.components.iter().zip(plant).for_each(|(field, &marking)| field.set(state, marking as u64));
-        self.variables.iter().for_each(|&(variable, field)| field.set(state, machine.value(variable)));
+        self.variables.iter().for_each(|&(variable, field)| field.set(state, value(variable)));
+    }
+
+    /// A state in packed form.
+    pub(super) fn packed(&self, plant: &[usize], memory: &[u64]) -> Vec<u64> {
+        let mut state = vec![0; self.words];
+        self.pack(plant, |variable| memory[variable.0], &mut state);
+        state
     }
 
     /// What tells which lines a scan executes, for [`ScanSpace::packed_beginnings`].
@@ -172,8 +179,13 @@ impl<'s> ScanSpace<'s> {
             .collect()
     }
 
+    /// Whether a scan may begin with these values after one that ended with those.
+    pub(super) fn admits(&self, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64) -> bool {
+        self.admission.is_none_or(|admission| admission.admits(before, now))
+    }
+
     /// Runs a scan, whose inputs have been set.
-    fn scan(&self, machine: &mut Machine<'_>) -> Result<(), Failure> {
+    pub(super) fn scan(&self, machine: &mut Machine<'_>) -> Result<(), Failure> {
         let ended = machine.scan();
         match self.tolerated.first_error(machine.hazards()) {
             // It comes before whatever keeps the scan from ending.
@@ -187,7 +199,7 @@ impl<'s> ScanSpace<'s> {
         let mut state = vec![0; self.words];
         self.beginnings(from, &mut |machine, plant| {
             let result = self.scan(machine);
-            self.pack(plant, machine, &mut state);
+            self.pack(plant, |variable| machine.value(variable), &mut state);
             visit(ScanRun { plant, machine, end: result.map(|()| state.as_slice()) });
         });
     }
@@ -203,8 +215,7 @@ impl<'s> ScanSpace<'s> {
                     component.markings[marking].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
                 }
                 setting.values().for_each(|(input, value)| machine.set(input, value));
-                let admits = |it: &dyn Admission| it.admits(&|id| from.memory[id.0], &|id| machine.value(id));
-                if self.admission.is_none_or(admits) {
+                if self.admits(&|id| from.memory[id.0], &|id| machine.value(id)) {
                     visit(&mut machine, plant);
                 }
             });
@@ -224,8 +235,7 @@ impl<'s> ScanSpace<'s> {
             }
             self.free_inputs.for_each(|setting| {
                 setting.changed().for_each(|(input, value)| field(input).set(&mut begin, value));
-                let admits = |it: &dyn Admission| it.admits(&|id| self.value(from, id), &|id| self.value(&begin, id));
-                if self.admission.is_none_or(admits) {
+                if self.admits(&|id| self.value(from, id), &|id| self.value(&begin, id)) {
                     visit(&begin);
                 }
             });

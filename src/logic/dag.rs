@@ -56,10 +56,28 @@ impl Dag {
         &self.nodes
     }
 
+    /// All nodes by their numbers, parts before what they are parts of.
+    pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
+        (0..self.nodes.len()).map(NodeId)
+    }
+
     /// A node.
     #[must_use]
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0]
+    }
+
+    /// Whether a part of a node is about all paths from some state, which no run can show.
+    #[must_use]
+    pub fn is_universal(&self, id: NodeId) -> bool {
+        match *self.node(id) {
+            Node::State { .. } => false,
+            Node::And(f, g) | Node::Or(f, g) => self.is_universal(f) || self.is_universal(g),
+            Node::Next(quantifier, f) => quantifier == Quantifier::All || self.is_universal(f),
+            Node::Until(quantifier, f, g) | Node::WeakUntil(quantifier, f, g) => {
+                quantifier == Quantifier::All || self.is_universal(f) || self.is_universal(g)
+            }
+        }
     }
 
     /// The formula that a node stands for.

@@ -4,6 +4,7 @@
 //! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
 //! ```
 
+mod along;
 mod assertion;
 mod assumption;
 mod bind;
@@ -15,6 +16,7 @@ mod evidence;
 mod formula;
 mod label;
 mod literal;
+mod mentions;
 mod parse;
 mod past;
 mod representatives;
@@ -24,6 +26,7 @@ mod text;
 mod vacuity;
 mod valuations;
 
+pub use along::along;
 pub use assertion::{Assertion, bind_assertion};
 pub use assumption::{Assumed, Assumption, Moment, bind_assumption};
 pub use bind::{Nodes, View, bind, bind_in_net};
@@ -35,11 +38,12 @@ pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
 pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
 pub use literal::number;
+pub use mentions::Mentions;
 pub use parse::{
     AssertionText, AssumptionText, Body, Origin, PlantText, Requirement, RequirementFile, Tag, parse_domain,
     parse_formula, parse_requirement, parse_requirements,
 };
 pub use past::{History, Past, remembered};
 pub use representatives::representatives;
-pub use vacuity::vacuous_premise;
+pub use vacuity::{Premise, Step, premises};
 pub use valuations::{MarkingValuation, Remembering, ScanValuation};

@@ -1,6 +1,6 @@
 //! What is told of a requirement.
 
-use super::Outcome;
+use super::{Independence, Outcome};
 use crate::logic::{Origin, Requirement, Tag};
 use crate::semantics::VarId;
 
@@ -21,6 +21,8 @@ pub struct Answer {
     pub origin: Option<Origin>,
     /// What is known.
     pub outcome: Outcome,
+    /// If it holds whatever the program does.
+    pub independent: Option<Independence>,
 }
 
 impl Answer {
@@ -35,6 +37,7 @@ impl Answer {
             formula: requirement.text.clone(),
             origin: Some(requirement.origin.clone()),
             outcome,
+            independent: None,
         }
     }
 
@@ -49,6 +52,7 @@ impl Answer {
             formula: formula.to_owned(),
             origin: None,
             outcome,
+            independent: None,
         }
     }
 }
@@ -60,8 +64,12 @@ pub struct Why {
     pub wanted: Vec<String>,
     /// For each variable on which the break rests, and which the program computes, who wrote it last.
     pub writers: Vec<Writer>,
+    /// Those of these variables that nobody has written by then: they have their initial values.
+    pub unwritten: Vec<VarId>,
     /// Inputs that matter, if some were found.
     pub repair: Option<Repair>,
+    /// If none were found, the reason.
+    pub unrepaired: Option<String>,
 }
 
 /// The instruction that last wrote a variable.
@@ -78,13 +86,15 @@ pub struct Writer {
 }
 
 /// Inputs that matter: with other values of these, the run, made again, does not break the requirement; with other values of only
-/// some of them it still does.
+/// some of them it still does, or cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repair {
     /// The inputs, in the order of scans.
     pub changes: Vec<Change>,
-    /// Whether there is none with fewer inputs.
+    /// Whether it is known that there is none with fewer inputs.
     pub is_smallest: bool,
+    /// Others of the same size, some of them: each of these sets would do, too.
+    pub others: Vec<Vec<Change>>,
 }
 
 /// Another value of an input in one scan. Values are patterns of its type.

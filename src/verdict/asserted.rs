@@ -46,6 +46,7 @@ pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
         formula: assertion.text.clone(),
         origin: Some(assertion.origin.clone()),
         outcome,
+        independent: None,
     }
 }
 

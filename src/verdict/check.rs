@@ -6,16 +6,20 @@ use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
+use super::coverage::coverage;
 use super::failing::what_is_missing;
+use super::independence::independence;
+use super::premises::{Occurrence, occurrence};
 use super::remarks::remarks;
 use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
-use super::{Answer, Exploration, Outcome, Report, admitted, asserted, every_line, hazards, scan_ends};
-use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore};
+use super::why::{Broken, why};
+use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, asserted, every_line, hazards, scan_ends};
+use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
 use crate::logic::{
     Assertion, Assumed, Assumption, Bound, Dag, Demand, History, Node, NodeId, Quantifier, Requirement, View, evidence,
-    label, vacuous_premise,
+    label,
 };
 use crate::translate::{PlaceRole, System};
 
@@ -75,17 +79,46 @@ fn check_scans(
     let outcomes = outcomes(&view, requirements, options, watch);
     let ScanView { space, graph, .. } = &view;
     let asserted = asserted::answers(&view, &options.assertions, &AtomicBool::new(false));
-    let answers = requirements.iter().zip(outcomes).map(|((asked, _), outcome)| Answer::to(asked, outcome));
     let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
     let hazards = hazards::checked(&system.program, options.tolerated)
         .map(|hazard| hazards::answer(hazard, hazards::on_scans(space, graph, hazard)));
     let inputs = (!assumptions.is_empty()).then(|| admitted::answer(admitted::outcome(&view)));
+    let never = whole(graph).and_then(|graph| never_executed(space, graph, &mut || watch(&done(graph)).is_some()));
+    let formulas = requirements.iter().filter_map(|(_, demand)| demand.formula());
+    let formulas = formulas.chain(assertions.iter().map(|assertion| &assertion.formula));
     Report {
-        answers: answers.chain(asserted).collect(),
+        answers: answers(system, requirements, options, outcomes).into_iter().chain(asserted).collect(),
         checks: ends.chain(hazards).chain(inputs).collect(),
-        remarks: remarks(space, graph),
+        remarks: remarks(space, graph, never.as_deref().unwrap_or_default()),
+        coverage: Some(coverage(system, formulas, never)),
         ..report(system, requirements, options, graph)
     }
+}
+
+/// A graph, if every reachable state and step is in it.
+fn whole(graph: &Graph) -> Option<&Graph> {
+    (graph.is_complete() && !graph.is_empty()).then_some(graph)
+}
+
+/// The figures of a search that is over.
+fn done(graph: &Graph) -> Progress {
+    let states = graph.len() as u64;
+    Progress { states, expanded: states, depth: graph.depth(), bytes: graph.bytes() }
+}
+
+/// The answers to requirements with these outcomes.
+fn answers(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    outcomes: Vec<Outcome>,
+) -> Vec<Answer> {
+    let answer = |((requirement, demand), outcome): (&(Requirement, Demand), Outcome)| {
+        let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
+        let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
+        Answer { independent, ..Answer::to(requirement, outcome) }
+    };
+    requirements.iter().zip(outcomes).map(answer).collect()
 }
 
 /// The outcomes of requirements on scans. Those that know the same of the past are judged together, on one graph.
@@ -134,18 +167,15 @@ fn check_markings(
     let graph = view.graph();
     let fair = options.fair.then(|| scanning(&view, graph));
     let judge = Judge { view: &view, graph, fair: fair.as_ref() };
-    let answers = requirements.par_iter().map(|(requirement, demand)| {
-        let outcome = match demand {
-            Demand::Formula(formula) => judge.outcome(formula),
-            Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
-        };
-        Answer::to(requirement, outcome)
+    let outcomes = requirements.par_iter().map(|(_, demand)| match demand {
+        Demand::Formula(formula) => judge.outcome(formula),
+        Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
     });
     let asserted = options.assertions.iter().map(|assertion| {
         let outcome = judge.outcome(&assertion.as_formula(system));
         asserted::answer(assertion, outcome)
     });
-    let answers = answers.collect::<Vec<_>>().into_iter().chain(asserted).collect();
+    let answers = answers(system, requirements, options, outcomes.collect()).into_iter().chain(asserted).collect();
     let unfair = Judge { fair: None, ..judge };
     let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
     let hazards = hazards::checked(&system.program, options.tolerated)
@@ -173,6 +203,7 @@ fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Opt
         answers: Vec::new(),
         checks: Vec::new(),
         remarks: Vec::new(),
+        coverage: None,
     }
 }
 
@@ -200,13 +231,16 @@ impl Judge<'_> {
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
         let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
         let labels = label(graph, &dag, &holds, fair);
-        let shown = |node: NodeId| {
-            let evidence = evidence(graph, &dag, &labels, fair, node, graph.initial())?;
-            Some(witness(view, graph, &dag, &evidence))
-        };
-        match shown(no) {
-            Some(Ok(witness)) => return Outcome::Violated(witness, None),
-            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
+        let evidence = |node: NodeId| evidence(graph, &dag, &labels, fair, node, graph.initial());
+        let shown = |node: NodeId| Some(witness(view, graph, &dag, &evidence(node)?));
+        let broken = evidence(no).map(|evidence| (witness(view, graph, &dag, &evidence), evidence));
+        match broken {
+            Some((Ok(witness), evidence)) => {
+                let (dag, labels, evidence) = (&dag, &labels, &evidence);
+                let why = why(Broken { view, graph, formula, dag, negation: no, labels, evidence }, &witness);
+                return Outcome::Violated(witness, why);
+            }
+            Some((Err(disagreement), _)) => return disagreed(&disagreement.to_string()),
             None => {}
         }
         let everywhere = graph.initial().iter().all(|&state| labels.of(yes).contains(state as usize));
@@ -218,16 +252,14 @@ impl Judge<'_> {
             Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
             None => None,
         };
-        let mut never = |premise: &Bound| graph.is_complete() && self.holds_nowhere(premise);
-        let vacuous = vacuous_premise(formula, &mut never).map(|premise| premise.text(view.system()));
-        Outcome::Holds { vacuous, witness, example: None }
-    }
-
-    fn holds_nowhere(&self, formula: &Bound) -> bool {
-        let mut dag = Dag::default();
-        let node = dag.add(formula, false);
-        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
-        label(self.graph, &dag, &holds, self.fair).of(node).is_clear()
+        let occurrence = whole(graph).map(|graph| occurrence(view, graph, fair, formula)).transpose();
+        match occurrence {
+            Ok(occurrence) => {
+                let Occurrence { vacuous, example } = occurrence.unwrap_or_default();
+                Outcome::Holds { vacuous, witness, example }
+            }
+            Err(disagreement) => disagreed(&disagreement.to_string()),
+        }
     }
 }
 

@@ -11,7 +11,7 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
     let Some(&first) = graph.initial().first().filter(|_| graph.is_complete()) else {
         return Outcome::Unknown(what_is_missing(graph));
     };
-    let never = never_executed(&view.space, graph);
+    let never = never_executed(&view.space, graph, &mut || false).unwrap_or_default();
     if never.is_empty() {
         return Outcome::holds();
     }

@@ -5,17 +5,23 @@ mod answer;
 mod asserted;
 mod assumptions;
 mod check;
+mod coverage;
 mod every_line;
 mod failing;
 mod hazards;
+mod independence;
 mod net;
+mod premises;
 mod remarks;
 mod remembering;
 mod scan_ends;
 mod views;
+mod why;
 
 pub use answer::{Answer, Change, Repair, Why, Writer};
 pub use check::{Options, check};
+pub use coverage::Coverage;
+pub use independence::Independence;
 pub use net::{Branch, Examination, Means, NetReport, Question, Reply, Run, judge, judge_aloud};
 pub use remarks::Remark;
 
@@ -28,8 +34,8 @@ use crate::witness::{FiringTrace, ScanTrace};
 pub enum Outcome {
     /// It holds.
     Holds {
-        /// The premise that no reachable state satisfies, so that the requirement says nothing.
-        vacuous: Option<String>,
+        /// The premise that never occurs, so that the requirement says nothing.
+        vacuous: Option<Vacuity>,
         /// For a requirement that something is possible, a way there.
         witness: Option<Witness>,
         /// In the scan view, a run in which its premise occurs.
@@ -39,6 +45,33 @@ pub enum Outcome {
     Violated(Witness, Option<Why>),
     /// Nothing is known, for this reason.
     Unknown(String),
+}
+
+/// A premise that never occurs, as text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Vacuity {
+    /// It is true in no reachable state.
+    Nowhere(String),
+    /// It is true in some states, but never where the requirement asks for it: `b` in `AG (a -> AX (b -> c))` after `a`.
+    NotThere(String),
+}
+
+impl Vacuity {
+    /// The premise.
+    #[must_use]
+    pub fn premise(&self) -> &str {
+        let (Self::Nowhere(premise) | Self::NotThere(premise)) = self;
+        premise
+    }
+
+    /// What is so, in words.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        match self {
+            Self::Nowhere(premise) => format!("`{premise}` is true in no reachable state"),
+            Self::NotThere(premise) => format!("`{premise}` is never true where the requirement asks for it"),
+        }
+    }
 }
 
 /// The three verdicts.
@@ -171,6 +204,8 @@ pub struct Report {
     pub checks: Vec<Answer>,
     /// In the scan view, what else is worth knowing.
     pub remarks: Vec<Remark>,
+    /// In the scan view, what of the program was modelled, executed, and asked about.
+    pub coverage: Option<Coverage>,
 }
 
 impl Report {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::explore::{Graph, ScanSpace, never_executed};
+use crate::explore::{Graph, ScanSpace};
 use crate::semantics::{Role, VarId};
 
 /// Something about all reachable states.
@@ -14,8 +14,8 @@ pub enum Remark {
     NeverExecuted(usize),
 }
 
-/// The remarks on a system whose graph is complete; there are none on another one.
-pub fn remarks(space: &ScanSpace<'_>, graph: &Graph) -> Vec<Remark> {
+/// The remarks on a system whose graph is complete, with the lines that are never executed; there are none on another one.
+pub fn remarks(space: &ScanSpace<'_>, graph: &Graph, never: &[usize]) -> Vec<Remark> {
     if !graph.is_complete() || graph.is_empty() {
         return Vec::new();
     }
@@ -26,7 +26,6 @@ pub fn remarks(space: &ScanSpace<'_>, graph: &Graph) -> Vec<Remark> {
         graph.ids().all(|id| value(id, output) == first).then_some(Remark::NeverChanges(output, first))
     };
     let mut remarks: Vec<Remark> = program.with_role(Role::Output).filter_map(constant).collect();
-    let never = never_executed(space, graph);
     let mut spans: BTreeSet<_> = never.iter().map(|&line| program.code[line].span).collect();
     // What comes from one piece of source, as the code of a function at each call, must be dead everywhere.
     let is_dead: BTreeSet<usize> = never.iter().copied().collect();
@@ -36,7 +35,7 @@ pub fn remarks(space: &ScanSpace<'_>, graph: &Graph) -> Vec<Remark> {
         }
     }
     let mut seen = BTreeSet::new();
-    let dead = never.into_iter().filter(|&line| {
+    let dead = never.iter().copied().filter(|&line| {
         let span = program.code[line].span;
         spans.contains(&span) && seen.insert(span)
     });

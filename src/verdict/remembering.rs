@@ -1,8 +1,8 @@
 //! The scan view beside what formulas have to remember of earlier scans.
 
 use super::Trace;
-use super::views::{ScanView, SystemView};
-use crate::explore::{Budget, Graph, Progress, observed};
+use super::views::{ScanStates, ScanView, SystemView};
+use crate::explore::{Budget, Graph, Observer, Progress, observed};
 use crate::logic::{Bound, History, Remembering, remembered};
 use crate::translate::System;
 use crate::witness::{Disagreement, Holds, replay_scans, scan_trace};
@@ -29,6 +29,34 @@ impl<'a, 's> RememberingView<'a, 's> {
     fn scan_state(&self, state: &[u64]) -> &[u64] {
         self.base.graph.state(state[0] as u32)
     }
+
+    fn remembering(&self) -> Remembering<'_> {
+        Remembering { space: &self.base.space, history: &self.history }
+    }
+}
+
+impl ScanStates for RememberingView<'_, '_> {
+    fn base(&self) -> &ScanView<'_> {
+        self.base
+    }
+
+    fn parts<'a>(&'a self, state: &'a [u64]) -> (&'a [u64], &'a [u64]) {
+        (self.scan_state(state), &state[1..])
+    }
+
+    fn remember(&self, before: Option<(&[u64], &[u64])>, end: &[u64]) -> Vec<u64> {
+        let remembering = self.remembering();
+        let (mut message, mut memory) = (remembering.beginning(), Vec::new());
+        if let Some((before, known)) = before {
+            remembering.message(before, known, &mut message);
+        }
+        remembering.remember(&message, end, &mut memory);
+        memory
+    }
+
+    fn holds_after(&self, formula: &Bound, end: &[u64], memory: &[u64]) -> bool {
+        formula.holds_in(&self.remembering().at(end, memory)).unwrap_or(false)
+    }
 }
 
 impl SystemView for RememberingView<'_, '_> {
@@ -41,8 +69,11 @@ impl SystemView for RememberingView<'_, '_> {
     }
 
     fn holds(&self, formula: &Bound, state: &[u64]) -> bool {
-        let remembering = Remembering { space: &self.base.space, history: &self.history };
-        formula.holds_in(&remembering.at(self.scan_state(state), &state[1..])).unwrap_or(false)
+        self.holds_after(formula, self.scan_state(state), &state[1..])
+    }
+
+    fn scans(&self) -> Option<&dyn ScanStates> {
+        Some(self)
     }
 
     fn replayed(

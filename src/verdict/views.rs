@@ -15,6 +15,10 @@ pub trait SystemView: Sync {
     fn system(&self) -> &System;
     /// Whether a formula about one state holds in a state.
     fn holds(&self, formula: &Bound, state: &[u64]) -> bool;
+    /// Its states as ends of scans, if they are.
+    fn scans(&self) -> Option<&dyn ScanStates> {
+        None
+    }
     /// The trace along some states, replayed; `shows` is asked at each of them whether the replay shows what it should.
     fn replayed(
         &self,
@@ -22,6 +26,18 @@ pub trait SystemView: Sync {
         loop_start: Option<usize>,
         shows: &dyn Fn(usize, Holds<'_>) -> Result<(), Disagreement>,
     ) -> Result<Trace, Disagreement>;
+}
+
+/// A view whose states are ends of scans, each with a memory of the scans before.
+pub trait ScanStates: SystemView {
+    /// The scan view itself.
+    fn base(&self) -> &ScanView<'_>;
+    /// The end of a scan as the space packs it, and the memory, of a state.
+    fn parts<'a>(&'a self, state: &'a [u64]) -> (&'a [u64], &'a [u64]);
+    /// The memory at the end of a scan that comes after another one with its memory, or is the first one.
+    fn remember(&self, before: Option<(&[u64], &[u64])>, end: &[u64]) -> Vec<u64>;
+    /// Whether a formula about one state holds at the end of a scan, which need not be a state of the graph.
+    fn holds_after(&self, formula: &Bound, end: &[u64], memory: &[u64]) -> bool;
 }
 
 /// The scan view.
@@ -44,6 +60,10 @@ impl SystemView for ScanView<'_> {
         formula.holds_in(&ScanValuation(&self.space, state)).unwrap_or(false)
     }
 
+    fn scans(&self) -> Option<&dyn ScanStates> {
+        Some(self)
+    }
+
     fn replayed(
         &self,
         states: &[&[u64]],
@@ -56,6 +76,24 @@ impl SystemView for ScanView<'_> {
             shows(position, &|formula| recalled.holds(formula))
         })?;
         Ok(Trace::Scans(trace))
+    }
+}
+
+impl ScanStates for ScanView<'_> {
+    fn base(&self) -> &ScanView<'_> {
+        self
+    }
+
+    fn parts<'a>(&'a self, state: &'a [u64]) -> (&'a [u64], &'a [u64]) {
+        (state, &[])
+    }
+
+    fn remember(&self, _: Option<(&[u64], &[u64])>, _: &[u64]) -> Vec<u64> {
+        Vec::new()
+    }
+
+    fn holds_after(&self, formula: &Bound, end: &[u64], _: &[u64]) -> bool {
+        self.holds(formula, end)
     }
 }
 

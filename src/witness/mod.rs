@@ -10,10 +10,12 @@ mod recalled;
 mod replay;
 mod scan_trace;
 mod table;
+mod writes;
 
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
-pub use narrate::{firing_table, line_by_line, scan_table};
+pub use narrate::{firing_table, line_by_line, marked_scan_table, scan_table};
 pub use recalled::Recalled;
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_lines, replay_scans, scan_trace, scan_trace_to};
 pub use table::{Column, Table};
+pub use writes::{Write, last_writes};

@@ -14,6 +14,12 @@ use crate::translate::{System, TransitionRole};
 /// scan it repeats.
 #[must_use]
 pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
+    marked_scan_table(system, trace, &|_, _| false)
+}
+
+/// The same with an exclamation mark at some values, each of a scan (from 0) and a variable.
+#[must_use]
+pub fn marked_scan_table(system: &System, trace: &ScanTrace, is_marked: &dyn Fn(usize, VarId) -> bool) -> Table {
     let program = &system.program;
     let groups: Vec<Vec<VarId>> =
         [Role::Input, Role::Memory, Role::Output].map(|role| program.with_role(role).collect()).into();
@@ -37,7 +43,8 @@ pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
             let unknown = scan.end.is_none() && program.variable(id).role != Role::Input;
             let star = if memory[id.0] == before[id.0] { "" } else { "*" };
             let value = program.value_text(id, memory[id.0]);
-            row.push(if unknown { "?".to_owned() } else { format!("{star}{value}") });
+            let mark = if is_marked(position, id) { "!" } else { "" };
+            row.push(if unknown { "?".to_owned() } else { format!("{mark}{star}{value}") });
         }
         if has_moves {
             row.push(moves(system, scan));

@@ -44,32 +44,98 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// Sets the cells of a row, group by group.
-    fn line(&self, widths: &[usize], separator: &str, cell: impl Fn(usize, &Column) -> String) -> String {
-        let mut column = 0;
-        let groups = self.groups.iter().map(|group| {
-            let cells = group.iter().map(|c| {
+    /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of
+    /// columns, an empty line between them.
+    #[must_use]
+    pub fn within(&self, width: usize) -> String {
+        let widths = self.widths();
+        let first = self.groups.first().map_or(0, Vec::len);
+        let own: usize = widths[..first].iter().sum::<usize>() + first.saturating_sub(1);
+        let mut blocks: Vec<Vec<usize>> = Vec::new();
+        let (mut used, mut column) = (0, 0);
+        for (group, columns) in self.groups.iter().enumerate() {
+            for place in 0..columns.len() {
+                let gap = if place == 0 { 3 } else { 1 };
+                match blocks.last_mut() {
+                    _ if group == 0 => {}
+                    Some(block) if used + gap + widths[column] <= width => {
+                        block.push(column);
+                        used += gap + widths[column];
+                    }
+                    _ => {
+                        blocks.push((0..first).chain([column]).collect());
+                        used = own + 3 + widths[column];
+                    }
+                }
                 column += 1;
-                c.pad(&cell(column - 1, c), widths[column - 1])
-            });
-            cells.collect::<Vec<_>>().join(if separator.contains('+') { "-" } else { " " })
-        });
-        groups.collect::<Vec<_>>().join(separator).trim_end().to_owned()
+            }
+        }
+        let texts: Vec<String> =
+            blocks.iter().map(|block| self.block(&widths, &|column| block.contains(&column))).collect();
+        if texts.is_empty() { self.to_string() } else { texts.join("\n") }
+    }
+
+    /// How wide each column is.
+    fn widths(&self) -> Vec<usize> {
+        let heads = self.groups.iter().flatten().map(|column| column.head.as_str());
+        let width = |(i, head): (usize, &str)| {
+            let cells = self.rows.iter().map(|row| row[i].as_str());
+            cells.chain([head]).map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        heads.enumerate().map(width).collect()
+    }
+
+    /// Some columns of the table.
+    fn block(&self, widths: &[usize], shown: &dyn Fn(usize) -> bool) -> String {
+        let mut text = self.line(widths, shown, " | ", |_, column| column.head.clone());
+        text += &self.line(widths, shown, "-+-", |i, _| "-".repeat(widths[i]));
+        self.rows.iter().for_each(|row| text += &self.line(widths, shown, " | ", |i, _| row[i].clone()));
+        text
+    }
+
+    /// Sets the cells of a row, group by group.
+    fn line(
+        &self,
+        widths: &[usize],
+        shown: &dyn Fn(usize) -> bool,
+        separator: &str,
+        cell: impl Fn(usize, &Column) -> String,
+    ) -> String {
+        let mut number = 0;
+        let mut groups = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            let columns = group.iter().zip(number..).filter(|(_, column)| shown(*column));
+            let cells: Vec<String> = columns.map(|(column, i)| column.pad(&cell(i, column), widths[i])).collect();
+            number += group.len();
+            if !cells.is_empty() {
+                groups.push(cells.join(if separator.contains('+') { "-" } else { " " }));
+            }
+        }
+        format!("{}\n", groups.join(separator).trim_end())
     }
 }
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let heads = self.groups.iter().flatten().map(|column| column.head.as_str());
-        let widths: Vec<usize> = heads
-            .enumerate()
-            .map(|(i, head)| {
-                let cells = self.rows.iter().map(|row| row[i].as_str());
-                cells.chain([head]).map(|cell| cell.chars().count()).max().unwrap_or(0)
-            })
-            .collect();
-        writeln!(f, "{}", self.line(&widths, " | ", |_, column| column.head.clone()))?;
-        writeln!(f, "{}", self.line(&widths, "-+-", |i, _| "-".repeat(widths[i])))?;
-        self.rows.iter().try_for_each(|row| writeln!(f, "{}", self.line(&widths, " | ", |i, _| row[i].clone())))
+        f.write_str(&self.block(&self.widths(), &|_| true))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Column, Table};
+
+    #[test]
+    fn a_narrow_table_is_split_into_blocks() {
+        let groups = [vec!["scan"], vec!["In", "Stop"], vec!["Motor"]];
+        let mut table = Table::new(groups.map(|group| group.into_iter().map(Column::right).collect()).into());
+        table.row(["1", "*1", "0", "*1"].map(String::from).into());
+        let whole = "scan | In Stop | Motor\n-----+---------+------\n   1 | *1    0 |    *1\n";
+        assert_eq!(table.to_string(), whole);
+        assert_eq!(table.within(22), whole);
+        let split = "scan | In Stop\n-----+--------\n   1 | *1    0\n\nscan | Motor\n-----+------\n   1 |    *1\n";
+        assert_eq!(table.within(21), split);
+        let apart = "scan | In\n-----+---\n   1 | *1\n\nscan | Stop\n-----+-----\n   1 |    0\n\nscan | Motor\n-----+------\n   1 |    *1\n";
+        assert_eq!(table.within(5), apart, "what does not fit stands alone");
     }
 }

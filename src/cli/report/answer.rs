@@ -1,0 +1,143 @@
+//! One requirement: its verdict, what it says, and the run that shows it.
+
+use petril::logic::Tag;
+use petril::semantics::VarId;
+use petril::verdict::{Answer, Independence, Outcome, Report, Trace, Verdict, Why, Witness};
+use petril::witness::{FiringTrace, ScanTrace, firing_table, line_by_line, marked_scan_table};
+
+use super::Text;
+use super::diagram::{ASCII, UNICODE, diagram};
+use super::layout::{INDENT, indent, paragraph};
+use super::summary::length;
+use crate::cli::console::Colour;
+
+impl Text<'_> {
+    /// Everything that is told of a requirement.
+    pub(super) fn answer(&self, answer: &Answer, report: &Report) -> String {
+        let mut out = self.head(answer);
+        match &answer.outcome {
+            Outcome::Unknown(reason) => out += &self.told(&format!("because {reason}")),
+            Outcome::Holds { vacuous, witness, example } => {
+                if let Some(vacuity) = vacuous {
+                    let doubt = self.console.paint("vacuously", Colour::Doubtful);
+                    out += &self.told(&format!("{doubt}: {}", vacuity.sentence()));
+                }
+                if let Some(independence) = answer.independent {
+                    out += &self.told(match independence {
+                        Independence::OfEverything => "whatever the program does: it is true of everything",
+                        Independence::OfTheProgram => "whatever the program does: it tests the plant, not the program",
+                    });
+                }
+                match (witness, example) {
+                    (Some(witness), _) if self.arguments.witnesses => out += &self.witness(witness, None, report),
+                    (None, Some(example)) if self.arguments.witnesses => {
+                        out += &self.told("for example:");
+                        out += &self.witness(example, None, report);
+                    }
+                    (Some(witness), _) => {
+                        out += &self.told(&format!("shown by a run of {} (--witnesses prints it)", length(witness)));
+                    }
+                    _ => {}
+                }
+            }
+            Outcome::Violated(witness, why) => out += &self.witness(witness, why.as_ref(), report),
+        }
+        out
+    }
+
+    /// The verdict, what the requirement says, and its formula.
+    fn head(&self, answer: &Answer) -> String {
+        let (word, colour) = match answer.outcome.verdict() {
+            Verdict::Holds => ("HOLDS   ", Colour::Good),
+            Verdict::Violated => ("VIOLATED", Colour::Bad),
+            Verdict::Unknown => ("UNKNOWN ", Colour::Doubtful),
+        };
+        let mut title = answer.name.clone();
+        if let Some(sentence) = &answer.sentence {
+            title += &format!(": {sentence}");
+        }
+        if !answer.tags.is_empty() {
+            let tags: Vec<String> = answer.tags.iter().map(tag).collect();
+            title += &format!(" [{}]", tags.join(", "));
+        }
+        // Colours take no columns.
+        let head = paragraph(word, word.len() + 1, &format!(" {title}"), self.console.output_width());
+        let mut out = head.replacen(word, &self.console.paint(word, colour), 1);
+        if let Some(words) = &answer.words {
+            out += &self.told(words);
+        }
+        out + &self.told(&answer.formula)
+    }
+
+    /// An indented paragraph.
+    fn told(&self, text: &str) -> String {
+        paragraph(INDENT, INDENT.len(), text, self.console.output_width())
+    }
+
+    /// The columns that are left beside the indent.
+    fn width(&self) -> usize {
+        self.console.output_width().saturating_sub(INDENT.len())
+    }
+
+    /// A run as a table, what it shows, and why it breaks the requirement.
+    fn witness(&self, witness: &Witness, why: Option<&Why>, report: &Report) -> String {
+        let changes =
+            why.and_then(|why| why.repair.as_ref()).map(|repair| repair.changes.as_slice()).unwrap_or_default();
+        let matters = |scan: usize, id: VarId| changes.iter().any(|change| (change.scan, change.input) == (scan, id));
+        let table = match &witness.trace {
+            Trace::Scans(trace) => marked_scan_table(self.system, trace, &matters),
+            Trace::Firings(trace) => firing_table(self.system, trace),
+        };
+        let mut out = format!("\n{}\n", indent(&table.within(self.width())));
+        // What is so after one scan is told again by what was wanted.
+        let is_told = why.is_some_and(|why| !why.wanted.is_empty()) && !self.arguments.details;
+        for note in witness.notes.iter().filter(|note| !is_told || note.first != note.last) {
+            out += &self.told(&note.sentence(report.exploration.view));
+        }
+        out += &self.end(&witness.trace);
+        out += &why.map(|why| self.why(why)).unwrap_or_default();
+        let (details, by_line) = (self.arguments.details, self.arguments.by_line || self.arguments.details);
+        if let Trace::Scans(trace) = &witness.trace {
+            if details {
+                let plain = self.arguments.ascii || !self.console.has_unicode();
+                let pen = if plain { &ASCII } else { &UNICODE };
+                out += &format!("\n{}", indent(&diagram(self.system, trace, self.width(), pen)));
+            }
+            if by_line {
+                let last = trace.scans.len() - 1;
+                let lines = line_by_line(self.system, trace, last, self.source).within(self.width());
+                out += &format!("\n{INDENT}scan {} line by line:\n\n{}", last + 1, indent(&lines));
+            }
+        }
+        out
+    }
+
+    /// How a run ends: with an error, or never.
+    fn end(&self, trace: &Trace) -> String {
+        match trace {
+            Trace::Scans(ScanTrace { scans, loop_start: None }) => {
+                let hazard = scans.last().and_then(|scan| scan.hazard);
+                let place = hazard.map(|(line, _)| self.source.line_of(self.system.program.code[line].span.start));
+                let text = |from| format!("{}:{from}: {}", self.source.name(), self.source.line_text(from).trim());
+                place.map(|from| self.told(&text(from))).unwrap_or_default()
+            }
+            Trace::Scans(ScanTrace { scans, loop_start: Some(start) }) => {
+                let (last, first) = (scans.len(), start + 1);
+                self.told(&format!("and so on for ever: scan {last} ends in the state in which scan {first} ended"))
+            }
+            Trace::Firings(FiringTrace { firings, loop_start: Some(start) }) => {
+                let last = firings.len();
+                self.told(&format!("and so on for ever: firing {last} leads back to the marking after firing {start}"))
+            }
+            Trace::Firings(_) => String::new(),
+        }
+    }
+}
+
+/// A tag as it was written.
+fn tag(tag: &Tag) -> String {
+    match &tag.value {
+        Some(value) => format!("{}: {value}", tag.name),
+        None => tag.name.clone(),
+    }
+}

@@ -1,0 +1,126 @@
+//! The report of a check as text for people.
+
+mod answer;
+mod coverage;
+mod diagram;
+mod layout;
+mod summary;
+mod why;
+
+pub use layout::counted;
+
+use petril::explore::Stop;
+use petril::logic::View;
+use petril::source::Source;
+use petril::translate::{Part, System};
+use petril::verdict::{Report, Verdict};
+use petril::witness::{Column, Table};
+
+use super::args::Check;
+use super::console::Console;
+use layout::{indent, paragraph};
+use summary::{checks, summary, table};
+
+/// Everything the text depends on besides the report.
+pub struct Text<'a> {
+    pub system: &'a System,
+    pub source: &'a Source,
+    pub arguments: &'a Check,
+    pub console: &'a Console,
+}
+
+impl Text<'_> {
+    /// The whole report.
+    pub fn report(&self, report: &Report) -> String {
+        let program = &self.system.program;
+        let title =
+            format!("program `{}` from {}, {} lines of flat code", program.name, self.source.name(), program.end());
+        let mut out = paragraph("", 0, &title, self.console.output_width()) + "\n";
+        out += &indent(&self.size().to_string());
+        out += "\n";
+        out += &self.exploration(report);
+        // A check that holds is one word; the others are told like requirements.
+        let failing = report.checks.iter().filter(|check| check.outcome.verdict() != Verdict::Holds);
+        for answer in report.answers.iter().chain(failing) {
+            out += "\n";
+            out += &self.answer(answer, report);
+        }
+        out += "\n";
+        out += &table(report, self.console);
+        out += &summary(report);
+        out += &checks(report);
+        out += &self.coverage(report);
+        out += &self.hints(report);
+        out
+    }
+
+    /// A paragraph that begins with a word and a colon.
+    fn line(&self, head: &str, text: &str) -> String {
+        let first = format!("{head}: ");
+        paragraph(&first, first.chars().count(), text, self.console.output_width())
+    }
+
+    fn size(&self) -> Table {
+        let mut table =
+            Table::new(vec![vec![Column::left("net")], vec![Column::right("places"), Column::right("transitions")]]);
+        for part in Part::ALL {
+            let (places, transitions) = self.system.size(part);
+            table.row(vec![part.name().to_owned(), places.to_string(), transitions.to_string()]);
+        }
+        let net = &self.system.net;
+        table.row(vec!["total".to_owned(), net.places().len().to_string(), net.transitions().len().to_string()]);
+        table
+    }
+
+    fn exploration(&self, report: &Report) -> String {
+        let exploration = &report.exploration;
+        let (states, steps, depth) = (exploration.states, exploration.steps, exploration.depth);
+        let (view, figures) = match exploration.view {
+            View::Scan => (
+                "scan view",
+                format!(
+                    "{} at the end of a scan, {}, {} deep",
+                    counted(states, "state"),
+                    counted(steps as usize, "step"),
+                    counted(depth, "scan")
+                ),
+            ),
+            View::Transition => (
+                "transition view",
+                format!(
+                    "{}, {}, {} deep",
+                    counted(states, "reachable marking"),
+                    counted(steps as usize, "firing"),
+                    counted(depth, "firing")
+                ),
+            ),
+        };
+        let end = match (&exploration.stop, exploration.complete) {
+            (Stop::Complete, false) => "every state was explored, but none behind a scan that goes wrong".to_owned(),
+            (stop, _) => stop.to_string(),
+        };
+        let assumptions = report.assumptions.iter().map(|assumption| self.line("assumed", assumption));
+        self.line(view, &format!("{figures}; {end}")) + &assumptions.collect::<String>()
+    }
+
+    /// What else could be printed.
+    fn hints(&self, report: &Report) -> String {
+        let shown = report.answers.iter().chain(&report.checks);
+        let (mut violated, mut examples) = (false, false);
+        for answer in shown {
+            match &answer.outcome {
+                petril::verdict::Outcome::Violated(..) => violated = true,
+                petril::verdict::Outcome::Holds { example: Some(_), .. } => examples = true,
+                _ => {}
+            }
+        }
+        let mut out = String::new();
+        if violated && !self.arguments.details && report.exploration.view == View::Scan {
+            out += &self.line("hint", "--details draws the runs, and tells their last scans line by line");
+        }
+        if examples && self.arguments.details && !self.arguments.witnesses {
+            out += &self.line("hint", "--witnesses prints runs that are examples of what holds");
+        }
+        out
+    }
+}

@@ -1,0 +1,55 @@
+//! Who wrote a value last: the instruction, and the scan.
+
+use super::scan_trace::ScanTrace;
+use crate::flat::{Instruction, Target};
+use crate::interpret::Machine;
+use crate::semantics::VarId;
+use crate::translate::System;
+
+/// A variable was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Write {
+    /// The value it got, as a pattern of its type.
+    pub value: u64,
+    /// The position of the scan in the run.
+    pub scan: usize,
+    /// The line of flat code, from 0.
+    pub line: usize,
+}
+
+/// For each variable, the instruction that wrote it last until the end of a scan of a run that has been replayed, even if it had that
+/// value already. A set or reset that does not act writes nothing; nor is the copying of inputs an instruction.
+#[must_use]
+pub fn last_writes(system: &System, trace: &ScanTrace, until: usize) -> Vec<Option<Write>> {
+    let program = &system.program;
+    let mut writes = vec![None; program.variables.len()];
+    let mut machine = Machine::new(program);
+    // The replay has seen these scans end.
+    let ending = trace.scans.iter().take_while(|scan| scan.end.is_some());
+    for (scan, told) in ending.enumerate().take(until + 1) {
+        told.inputs.iter().for_each(|&(input, value)| machine.set(input, value));
+        machine.begin_scan();
+        while !machine.at_end() {
+            let line = machine.line();
+            let written = written(&machine, program.code[line].instruction);
+            machine.step();
+            if let Some(variable) = written {
+                writes[variable.0] = Some(Write { value: machine.value(variable), scan, line });
+            }
+        }
+    }
+    writes
+}
+
+/// What the machine is about to write.
+fn written(machine: &Machine<'_>, instruction: Instruction) -> Option<VarId> {
+    let acts = match instruction {
+        Instruction::Set(_) | Instruction::Reset(_) => machine.result() & 1 == 1,
+        _ => true,
+    };
+    let target = instruction.writes().filter(|_| acts)?;
+    Some(match target {
+        Target::Variable(variable) => variable,
+        Target::Element(element) => element.at(machine.value(element.index) as usize),
+    })
+}
