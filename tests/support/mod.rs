@@ -6,6 +6,7 @@ pub mod agreement;
 pub mod assembler;
 pub mod contest;
 pub mod document;
+pub mod forms;
 pub mod naive_ctl;
 pub mod naive_nets;
 pub mod naive_structure;
