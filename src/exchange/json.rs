@@ -12,7 +12,7 @@ use crate::translate::{Part, System, TransitionRole};
 use crate::verdict::{Answer, Outcome, Remark, Trace, Why, Witness};
 use crate::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
 
-/// The last scan of a run that takes more instructions in all is not told.
+/// A last scan that takes more instructions is not told.
 const MAX_INSTRUCTIONS: usize = 1 << 20;
 
 /// A diagnostic: code, severity, message, file, line and column from 1, help.
@@ -151,10 +151,12 @@ fn trace(checked: &Checked<'_>, witness: &Witness, by_line: bool) -> Value {
     document["notes"] = notes.collect();
     if let (Trace::Scans(trace), true) = (&witness.trace, by_line) {
         // A trace that does not replay has no verdict, and so is not here.
-        let told = story(checked.system, trace, MAX_INSTRUCTIONS).unwrap_or_default();
-        let last = told.scans.last().filter(|_| told.is_whole);
-        document["last_scan"] =
-            last.map(|scan| scan.instructions.iter().map(|e| executed(checked, e)).collect::<Vec<_>>()).into();
+        let last = trace.scans.len().saturating_sub(1);
+        let told = story(checked.system, trace, last, MAX_INSTRUCTIONS).unwrap_or_default();
+        let lines = told.map(|scans| {
+            scans.iter().flat_map(|scan| &scan.instructions).map(|e| executed(checked, e)).collect::<Vec<_>>()
+        });
+        document["last_scan"] = lines.into();
     }
     document
 }

@@ -15,7 +15,7 @@ use crate::translate::TransitionRole;
 use crate::verdict::{Answer, Outcome, Trace, Verdict, Witness};
 use crate::witness::{Executed, firing_story, story};
 
-/// A run that takes more instructions is not stepped through.
+/// A last scan that takes more instructions is not stepped through.
 const MAX_INSTRUCTIONS: usize = 1 << 16;
 /// A code flow has at most this many locations, the last ones.
 const MAX_LOCATIONS: usize = 1000;
@@ -143,12 +143,11 @@ fn met(answer: &Answer) -> Option<(usize, Hazard)> {
 /// The last scan of a run, instruction by instruction.
 fn steps(checked: &Checked<'_>, witness: &Witness) -> Vec<Value> {
     let (scan, instructions): (usize, Vec<Executed>) = match &witness.trace {
-        Trace::Scans(trace) => match story(checked.system, trace, MAX_INSTRUCTIONS) {
-            Ok(mut told) if told.is_whole => {
-                (told.scans.len(), told.scans.pop().map(|scan| scan.instructions).unwrap_or_default())
-            }
-            _ => return Vec::new(),
-        },
+        Trace::Scans(trace) => {
+            let last = trace.scans.len().saturating_sub(1);
+            let told = story(checked.system, trace, last, MAX_INSTRUCTIONS).unwrap_or_default().unwrap_or_default();
+            (last + 1, told.into_iter().flat_map(|scan| scan.instructions).collect())
+        }
         Trace::Firings(trace) => {
             let told = firing_story(checked.system, trace).unwrap_or_default();
             let mut scans = vec![Vec::new()];

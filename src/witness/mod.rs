@@ -16,6 +16,6 @@ pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
 pub use narrate::{firing_table, line_by_line, marked_scan_table, scan_table};
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_scans, scan_trace};
-pub use story::{Executed, Story, ToldFiring, ToldScan, firing_story, story};
+pub use story::{Executed, ToldFiring, ToldScan, firing_story, story};
 pub use table::{Column, Table};
 pub use writes::{Write, last_writes};

@@ -39,43 +39,43 @@ pub struct ToldScan {
     pub closing: Vec<TransitionId>,
 }
 
-/// The first scans of a run.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Story {
-    /// The scans, each told to its end.
-    pub scans: Vec<ToldScan>,
-    /// Whether these are all scans of the run.
-    pub is_whole: bool,
-}
-
-/// Tells a run, but no scan that would need more than `limit` instructions in all. A scan that never ends is told until its
-/// state repeats, one that meets an error that ends it until then.
+/// Tells the scans of a run from position `from` on; nothing if that takes more than `limit` instructions. A scan that never
+/// ends is told until its state repeats, one that meets an error that ends it until then.
 ///
 /// # Errors
 /// The trace is not one of the system.
-pub fn story(system: &System, trace: &ScanTrace, limit: usize) -> Result<Story, Disagreement> {
+pub fn story(
+    system: &System,
+    trace: &ScanTrace,
+    from: usize,
+    limit: usize,
+) -> Result<Option<Vec<ToldScan>>, Disagreement> {
     let mut teller = Teller::new(system);
-    let mut told = Story { scans: Vec::new(), is_whole: true };
-    let mut left = limit;
+    let mut told: Vec<ToldScan> = Vec::new();
+    let (mut position, mut left, mut is_long) = (0, limit, false);
     let played = play_scans(system, trace, &mut |event, replay| {
         match event {
             Event::Begins => teller.begin(replay),
             Event::Fired(transition) => {
-                if let Some(executed) = teller.fired(transition, replay) {
-                    left = left.checked_sub(1).ok_or_else(|| Disagreement(String::new()))?;
+                if let Some(executed) = teller.fired(transition, replay).filter(|_| position >= from) {
+                    is_long = left == 0;
+                    left = left.checked_sub(1).ok_or_else(|| Disagreement("it is too long to tell".to_owned()))?;
                     teller.scan.instructions.push(executed);
                 }
             }
             Event::AtEnd(_) => {}
-            Event::Ended => told.scans.push(teller.end()),
+            Event::Ended => {
+                let scan = teller.end();
+                told.extend((position >= from).then_some(scan));
+                position += 1;
+            }
         }
         Ok(())
     });
     match played {
-        Err(_) if left == 0 => told.is_whole = false,
-        played => played?,
+        Err(_) if is_long => Ok(None),
+        played => played.map(|()| Some(told)),
     }
-    Ok(told)
 }
 
 /// A firing of the transition view, and what it did to the program.
