@@ -46,7 +46,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     let checked = Checked { system: &system, source: &source, report: &result };
     forms::write(&arguments.forms, &checked, started)?;
     if arguments.json {
-        console.print_json(json::report(&checked, arguments.by_line))?;
+        console.print_json(json::report(&checked, arguments.by_line || arguments.details))?;
     } else {
         let text = report::Text { system: &system, source: &source, arguments, console };
         console.print(&text.report(&result))?;

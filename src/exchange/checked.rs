@@ -4,7 +4,7 @@ use crate::logic::{Origin, View};
 use crate::semantics::VarId;
 use crate::source::Source;
 use crate::translate::System;
-use crate::verdict::{Answer, Outcome, Report, Trace, Why, Witness};
+use crate::verdict::{Answer, Change, Independence, Outcome, Report, Trace, Why, Witness};
 use crate::witness::{firing_table, scan_table};
 
 /// A report, the system it is about, and the text of its program.
@@ -78,10 +78,8 @@ impl<'a> Checked<'a> {
     pub fn reason(&self, answer: &Answer) -> Option<String> {
         match &answer.outcome {
             Outcome::Unknown(reason) => Some(reason.clone()),
-            Outcome::Holds { vacuous: Some(premise), .. } => {
-                Some(format!("vacuous: `{premise}` is true in no reachable state"))
-            }
-            Outcome::Holds { .. } => None,
+            Outcome::Holds { vacuous: Some(vacuity), .. } => Some(format!("vacuous: {}", vacuity.sentence())),
+            Outcome::Holds { .. } => answer.independent.map(|what| independence(what).to_owned()),
             Outcome::Violated(witness, _) => Some(self.notes(witness).collect::<Vec<_>>().join("; ")),
         }
     }
@@ -122,22 +120,40 @@ impl<'a> Checked<'a> {
             let text = self.source.line_text(line).trim();
             format!("{name} = {value} was written in scan {} by {}:{line}: {text}", writer.scan + 1, self.source.name())
         }));
+        sentences.extend(why.unwritten.iter().map(|&id| format!("{} has its initial value", self.name(id))));
         if let Some(repair) = &why.repair {
-            let changes = repair.changes.iter().map(|change| {
-                let value = |pattern| program.value_text(change.input, pattern);
-                let (name, from, to) = (self.name(change.input), value(change.from), value(change.to));
-                format!("{name} = {to} instead of {from} in scan {}", change.scan + 1)
-            });
-            let changes = changes.collect::<Vec<_>>().join(", ");
-            sentences.push(format!("with {changes} the run would not break the requirement"));
+            let others = repair.others.iter().map(|changes| format!(", nor with {}", self.changes(changes)));
+            let others: String = others.collect();
+            sentences.push(format!("with {} this run would not break it{others}", self.changes(&repair.changes)));
         }
+        sentences.extend(why.unrepaired.iter().map(|reason| format!("no input is named that matters: {reason}")));
         sentences
+    }
+
+    /// Other values of inputs: "S1 = 0 instead of 1 in scan 2".
+    #[must_use]
+    pub fn changes(&self, changes: &[Change]) -> String {
+        let one = |change: &Change| {
+            let value = |pattern| self.system.program.value_text(change.input, pattern);
+            let (name, from, to) = (self.name(change.input), value(change.from), value(change.to));
+            format!("{name} = {to} instead of {from} in scan {}", change.scan + 1)
+        };
+        changes.iter().map(one).collect::<Vec<_>>().join(", ")
     }
 
     /// Where a requirement stands, if it stands in a file: a formula of the command line does not.
     #[must_use]
     pub fn file_of(&self, answer: &'a Answer) -> Option<&'a Origin> {
         answer.origin.as_ref().filter(|origin| origin.file != format!("formula {}", answer.name))
+    }
+}
+
+/// What a requirement does not depend on, in words.
+#[must_use]
+pub fn independence(what: Independence) -> &'static str {
+    match what {
+        Independence::OfEverything => "it is true whatever the program and the plant do",
+        Independence::OfTheProgram => "it speaks of inputs alone, so it holds whatever the program does",
     }
 }
 

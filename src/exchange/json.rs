@@ -9,7 +9,7 @@ use crate::logic::View;
 use crate::semantics::{Role, Type, VarId};
 use crate::source::Source;
 use crate::translate::{Part, System, TransitionRole};
-use crate::verdict::{Answer, Outcome, Remark, Trace, Why, Witness};
+use crate::verdict::{Answer, Change, Coverage, Independence, Outcome, Remark, Trace, Why, Witness};
 use crate::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
 
 /// A last scan that takes more instructions is not told.
@@ -60,7 +60,20 @@ pub fn report(checked: &Checked<'_>, by_line: bool) -> Value {
         "requirements": answers(&report.answers),
         "checks": answers(&report.checks),
         "notes": report.remarks.iter().map(|r| remark(checked, r)).collect::<Vec<_>>(),
+        "coverage": report.coverage.as_ref().map(|found| coverage(checked, found)),
         "verdict": report.verdict().word(),
+    })
+}
+
+fn coverage(checked: &Checked<'_>, coverage: &Coverage) -> Value {
+    let names = |ids: &[VarId]| ids.iter().map(|&id| checked.name(id)).collect::<Vec<_>>();
+    let never = coverage.never_executed.as_ref();
+    json!({
+        "lines": coverage.lines,
+        "never_executed": never.map(|lines| lines.iter().map(|line| line + 1).collect::<Vec<_>>()),
+        "never_read": names(&coverage.never_read),
+        "never_written": names(&coverage.never_written),
+        "unasked": names(&coverage.unasked),
     })
 }
 
@@ -109,6 +122,10 @@ fn answer(checked: &Checked<'_>, answer: &Answer, by_line: bool) -> Value {
         "verdict": answer.outcome.verdict().word(),
         "reason": checked.reason(answer),
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
+        "independent_of": answer.independent.map(|what| match what {
+            Independence::OfEverything => "everything",
+            Independence::OfTheProgram => "program",
+        }),
         "why": why(answer).map(|why| explanation(checked, why)),
         "trace": run,
         "example": example,
@@ -127,18 +144,31 @@ fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
             "source_line": checked.source_line(writer.line),
         })
     });
-    let repair = why.repair.as_ref().map(|repair| {
-        let changes = repair.changes.iter().map(|change| {
+    let changes = |changes: &[Change]| -> Vec<Value> {
+        let one = |change: &Change| {
             json!({
                 "scan": change.scan + 1,
                 "input": checked.name(change.input),
                 "from": value(change.input, change.from),
                 "to": value(change.input, change.to),
             })
-        });
-        json!({ "changes": changes.collect::<Vec<_>>(), "smallest": repair.is_smallest })
+        };
+        changes.iter().map(one).collect()
+    };
+    let repair = why.repair.as_ref().map(|repair| {
+        json!({
+            "changes": changes(&repair.changes),
+            "smallest": repair.is_smallest,
+            "others": repair.others.iter().map(|other| changes(other)).collect::<Vec<_>>(),
+        })
     });
-    json!({ "wanted": why.wanted, "writers": writers.collect::<Vec<_>>(), "repair": repair })
+    json!({
+        "wanted": why.wanted,
+        "writers": writers.collect::<Vec<_>>(),
+        "unwritten": why.unwritten.iter().map(|&id| checked.name(id)).collect::<Vec<_>>(),
+        "repair": repair,
+        "unrepaired": why.unrepaired,
+    })
 }
 
 fn trace(checked: &Checked<'_>, witness: &Witness, by_line: bool) -> Value {

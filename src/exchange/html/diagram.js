@@ -27,8 +27,14 @@ function timingDiagram(playback, { matters, notes, seek }) {
     const lanes = whole ? all : some;
     if (more) more.textContent = whole ? `only the ${some.length} that change` : `all ${all.length} variables`;
     const columns = playback.columns;
-    const least = playback.run.kind === "scans" ? 44 : 20;
-    width = Math.min(150, Math.max(least, (box.clientWidth - 2) / columns));
+    // Values that change from scan to scan are to be read.
+    const longest = Math.max(0, ...playback.ticks.flatMap((tick) => tick.changes
+      .filter(([variable]) => lanes.includes(variable) && data.variables[variable][2] !== "BOOL")
+      .map(([, value]) => shown(value).length)));
+    const least = playback.run.kind === "scans" ? Math.max(44, Math.min(84, longest * 6.7 + 14)) : 20;
+    // Where one can look into the scans they may be wide.
+    const most = playback.length > 2 * columns ? 420 : 120;
+    width = Math.min(most, Math.max(least, (box.clientWidth - 2) / columns));
     const total = Math.ceil(width * columns) + 1, height = HEAD + LANE * lanes.length + 4;
     const grid = [], waves = [];
 

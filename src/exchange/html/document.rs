@@ -10,6 +10,7 @@ use crate::exchange::stamp::Stamp;
 use crate::explore::Stop;
 use crate::logic::View;
 use crate::semantics::{Role, VarId};
+use crate::source::Source;
 use crate::translate::Part;
 use crate::verdict::{Answer, Outcome, Remark, Why};
 
@@ -21,11 +22,15 @@ pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let Checked { system, source, report } = *checked;
     let program = &system.program;
     let mut runs = Runs::new(*checked);
-    let mut answers = |answers: &[Answer], kind: &str| -> Vec<Value> {
-        answers.iter().map(|a| answer(checked, a, kind, &mut runs)).collect()
-    };
-    let mut all = answers(&report.answers, "requirement");
-    all.append(&mut answers(&report.checks, "check"));
+    // Room is for what is violated first.
+    let requirements = report.answers.iter().map(|answer| (answer, "requirement"));
+    let all: Vec<(&Answer, &str)> = requirements.chain(report.checks.iter().map(|check| (check, "check"))).collect();
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by_key(|&i| std::cmp::Reverse(all[i].0.outcome.verdict()));
+    let mut answers = vec![Value::Null; all.len()];
+    for i in order {
+        answers[i] = answer(checked, all[i].0, all[i].1, &mut runs);
+    }
     let sizes = Part::ALL.map(|part| {
         let (places, transitions) = system.size(part);
         json!([part.name(), places, transitions])
@@ -52,12 +57,13 @@ pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
         "verdict": report.verdict().word(),
         "explored": explored(checked),
         "complete": report.exploration.complete,
+        "covered": covered(checked),
         "assumptions": report.assumptions,
         "remarks": remarks(checked),
         "net": sizes,
         "variables": variables,
         "code": code,
-        "answers": all,
+        "answers": answers,
         "source": lines(checked),
         "nets": runs.nets.finish(),
     })
@@ -97,7 +103,26 @@ fn remarks(checked: &Checked<'_>) -> Vec<Value> {
             seen.insert(line).then(|| json!([format!("line {line} is never executed: {text}"), line]))
         }
     };
-    checked.report.remarks.iter().filter_map(one).collect()
+    let mut remarks: Vec<Value> = checked.report.remarks.iter().filter_map(one).collect();
+    if let Some(coverage) = &checked.report.coverage {
+        let lists = [
+            ("no instruction reads", &coverage.never_read),
+            ("no instruction writes", &coverage.never_written),
+            ("no requirement speaks of", &coverage.unasked),
+        ];
+        remarks.extend(lists.into_iter().filter(|(_, ids)| !ids.is_empty()).map(|(what, ids)| {
+            let names: Vec<String> = ids.iter().map(|&id| format!("`{}`", checked.name(id))).collect();
+            json!([format!("{what} {}", names.join(", ")), null])
+        }));
+    }
+    remarks
+}
+
+/// How many lines of flat code there are, and how many of them some scan executes, if that is known.
+fn covered(checked: &Checked<'_>) -> Value {
+    let coverage = checked.report.coverage.as_ref();
+    let executed = coverage.and_then(|c| Some(c.lines - c.never_executed.as_ref()?.len()));
+    json!([checked.system.program.end(), executed])
 }
 
 fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>) -> Value {
@@ -137,9 +162,20 @@ fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
             let (from, to) = (value(change.from), value(change.to));
             json!([change.scan, position(change.input), checked.name(change.input), from, to])
         });
-        json!({ "changes": changes.collect::<Vec<_>>(), "smallest": repair.is_smallest })
+        let others = repair.others.iter().map(|others| checked.changes(others));
+        json!({
+            "changes": changes.collect::<Vec<_>>(),
+            "smallest": repair.is_smallest,
+            "others": others.collect::<Vec<_>>(),
+        })
     });
-    json!({ "wanted": why.wanted, "writers": writers.collect::<Vec<_>>(), "repair": repair })
+    json!({
+        "wanted": why.wanted,
+        "writers": writers.collect::<Vec<_>>(),
+        "unwritten": why.unwritten.iter().map(|&id| checked.name(id)).collect::<Vec<_>>(),
+        "repair": repair,
+        "unrepaired": why.unrepaired,
+    })
 }
 
 /// The text of the program: its lines, or, if it is long, the number and text of those that have instructions, with two
@@ -148,7 +184,7 @@ fn lines(checked: &Checked<'_>) -> Value {
     let source = checked.source;
     let count = source.line_of(source.text().len());
     if source.text().len() <= MAX_SOURCE {
-        return (1..=count).map(|line| source.line_text(line)).collect();
+        return (1..=count).map(|line| text_of(source, line)).collect();
     }
     let wanted = (0..checked.system.program.end()).flat_map(|line| {
         let line = checked.source_line(line);
@@ -160,5 +196,10 @@ fn lines(checked: &Checked<'_>) -> Value {
         room = room.saturating_sub(source.line_text(line).len() + 8);
         room > 0
     });
-    kept.map(|line| json!([line, source.line_text(line)])).collect()
+    kept.map(|line| json!([line, text_of(source, line)])).collect()
+}
+
+/// A line as it stands, indented.
+fn text_of(source: &Source, line: usize) -> &str {
+    source.slice(source.lines(line, line)).trim_end()
 }

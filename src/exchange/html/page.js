@@ -50,10 +50,20 @@ function facts() {
         item(states[1], plural(states[1], states[0])), item(steps[1], plural(steps[1], steps[0])),
         item(depth[1], `${plural(depth[1], depth[0])} deep`), item(places, "places"), item(transitions, "transitions")),
       html("p", { class: data.complete ? "complete" : "partial" }, sign(data.complete ? "holds" : "unknown"),
-        `${how[0].toUpperCase()}${how.slice(1)}.`)),
+        `${how[0].toUpperCase()}${how.slice(1)}.`),
+      covered()),
     html("div", { class: "panel" }, html("h2", {}, "Assumed"), html("ul", {}, data.assumptions.map((text) => html("li", {}, coded(text))))),
     data.remarks.length > 0 && html("div", { class: "panel wide" }, html("h2", {}, "Worth knowing"),
-      html("ul", {}, data.remarks.map(([text]) => html("li", {}, text)))));
+      html("ul", {}, data.remarks.map(([text]) => html("li", {}, coded(text))))));
+}
+
+// Every line is modelled: what cannot be is an error before. Not every line need be executed.
+function covered() {
+  const [lines, executed] = data.covered;
+  const whole = executed === lines;
+  const text = executed === null ? `All ${counted(lines, "line")} of code are modelled.`
+    : `All ${counted(lines, "line")} of code are modelled; ${whole ? "each" : executed} of them ${whole || executed === 1 ? "is" : "are"} executed in some scan.`;
+  return html("p", { class: executed === null || whole ? "complete" : "partial" }, sign(executed === null || whole ? "holds" : "unknown"), text);
 }
 
 // A sentence in which names stand between backquotes.
@@ -154,7 +164,7 @@ function fill(panel, answer) {
     answer.words && answer.sentence && line("Means", coded(answer.words)),
     line("Formula", html("code", {}, answer.formula)),
     answer.origin && line("Stands in", html("span", { class: "file" }, answer.origin)),
-    answer.reason && answer.runs.length === 0 && line(answer.verdict === "unknown" ? "Unknown because" : "But", coded(answer.reason)),
+    answer.reason && answer.runs.length === 0 && line(answer.verdict === "unknown" ? "Unknown because" : "Mind", coded(answer.reason)),
     answer.verdict === "holds" && line("Verdict", `proved on all ${data.explored[0][1].toLocaleString("en")} states, under the assumptions above`));
   panel.replaceChildren(facts, answer.why ? explanation(answer.why, counterexample) : "", ...stages.map((stage) => stage.element));
   for (const stage of stages.slice().reverse()) stage.begin();
@@ -174,13 +184,16 @@ function explanation(why, stage) {
   });
   const changes = why.repair ? why.repair.changes.map(([scan, , name, from, to]) =>
     html("li", {}, html("code", {}, `${name} = ${to}`), ` instead of ${from} in `, jump(`scan ${scan + 1}`, scan, -1))) : [];
+  const unwritten = why.unwritten.map((name) => html("li", {}, html("code", {}, name), " by nobody: it has its initial value"));
   return html("section", { class: "why" }, html("h3", {}, "Why"),
     why.wanted.length > 0 && html("div", {}, html("h4", {}, "Wanted"), html("ul", {}, why.wanted.map((text) => html("li", {}, coded(text))))),
-    writers.length > 0 && html("div", {}, html("h4", {}, "Written by"), html("ul", {}, writers)),
+    writers.length + unwritten.length > 0 && html("div", {}, html("h4", {}, "Written"), html("ul", {}, writers, unwritten)),
     changes.length > 0 && html("div", {}, html("h4", {}, "Inputs that matter"), html("ul", {}, changes),
-      html("p", { class: "hint" }, why.repair.smallest
-        ? "With these values the same run does not break the requirement. No change of fewer inputs does that."
-        : "With these values the same run does not break the requirement. Each of them is needed.")));
+      html("p", { class: "hint" }, "With these values this run would not break the requirement.",
+        why.repair.smallest && changes.length > 1 && " No change of fewer inputs does that."),
+      why.repair.others.length > 0 && html("details", {}, html("summary", {}, "Others would do as well"),
+        html("ul", {}, why.repair.others.map((text) => html("li", {}, text))))),
+    why.unrepaired && html("div", {}, html("h4", {}, "Inputs that matter"), html("p", { class: "hint" }, `None is named: ${why.unrepaired}.`)));
 }
 
 // Violated first, then unknown; within a verdict as they were given.

@@ -45,11 +45,13 @@ function listing() {
       touched.push(found);
       found.row.classList.add("passed");
       if (cr !== undefined) found.note.append(html("span", { class: "cr" }, `CR ${shown(cr)}`));
-      const written = [...writes.values()];
-      for (const [variable, value, changed] of written.slice(0, 4)) {
-        found.note.append(html("span", { class: changed ? "write changed" : "write" }, `${data.variables[variable][0]} := ${shown(value)}`));
+      // Where much is written, as by a call, what changed is what matters.
+      const all = [...writes.values()], changed = all.filter((write) => write[2]);
+      const written = all.length > 2 ? changed : all;
+      for (const [variable, value, isNew] of written.slice(0, 3)) {
+        found.note.append(html("span", { class: isNew ? "write changed" : "write" }, `${data.variables[variable][0]} := ${shown(value)}`));
       }
-      if (written.length > 4) found.note.append(html("span", { class: "write" }, `… ${written.length - 4} more`));
+      if (written.length > 3) found.note.append(html("span", { class: "write" }, `… ${written.length - 3} more`));
       if (hazard) found.note.append(html("span", { class: "hazard" }, hazard));
     }
     const tick = playback.ticks[index];
@@ -59,7 +61,11 @@ function listing() {
       current.row.setAttribute("aria-current", "step");
       const top = current.row.offsetTop - body.offsetTop;
       reveal(element, top - 60, top + current.row.offsetHeight + 60, element.scrollLeft + 30, element.scrollLeft + 30);
-    } else if (tick.kind === "begin") {
+    } else if (touched.length > 0) {
+      const last = touched[touched.length - 1].row;
+      const top = last.offsetTop - body.offsetTop;
+      reveal(element, top - 60, top + last.offsetHeight + 60, element.scrollLeft + 30, element.scrollLeft + 30);
+    } else {
       element.scrollTop = Math.max(0, firstLine() - 60);
     }
   }
@@ -70,11 +76,5 @@ function listing() {
     return found ? found.row.offsetTop - body.offsetTop : 0;
   }
 
-  function flash(line) {
-    const found = rows.get(line);
-    if (!found) return;
-    reveal(element, found.row.offsetTop - body.offsetTop - 60, found.row.offsetTop - body.offsetTop + 80, 0, 0);
-  }
-
-  return { element, show, flash };
+  return { element, show };
 }

@@ -22,7 +22,8 @@ function buildStage(answer, run) {
   const diagram = timingDiagram(playback, { matters, notes: run.notes, seek });
   const source = listing();
   const table = runTable(playback, matters, seek);
-  const cycle = run.tokens && data.nets && data.nets.cycle ? tokenGame(data.nets.cycle) : null;
+  const hasNets = run.tokens && data.nets !== null;
+  const cycle = hasNets && data.nets.cycle ? tokenGame(data.nets.cycle) : null;
   const subnets = new Map();
   const netTitle = html("h4", {}, "Instruction");
   const netPlace = html("div", { class: "net-place" });
@@ -48,15 +49,16 @@ function buildStage(answer, run) {
     html("div", { class: "stage-title" },
       html("h3", {}, title), html("p", {}, `${length}: ${what}.`, loopText())),
     run.notes.length > 0 && html("ul", { class: "notes" }, run.notes.map(([from, , , sentence]) =>
-      html("li", {}, html("button", { type: "button", class: "link", onclick: () => seek(scans ? playback.find(from, -1) : from) }, sentence)))),
+      html("li", {}, html("button", { type: "button", class: "link", onclick: () => seek(scans ? playback.find(from, -1) : from) }, coded(sentence))))),
     bar,
     card("Timing", diagram.element, "timing", diagram.more),
     html("div", { class: "pair" },
       card("Program", source.element, "program"),
-      card(scans ? "Scans" : "Firings", table.element, "scans")),
-    run.tokens && data.nets
-      ? html("div", { class: "pair nets" }, card(netTitle, netPlace, "instruction"),
-          cycle ? card("PLC cycle and plant", cycle.element, "cycle") : card("PLC cycle and plant", nothing("This net is too large for a page; `petril translate` writes it."), "cycle"))
+      html("div", { class: "stack" },
+        card(scans ? "Scans" : "Firings", table.element, "scans"),
+        hasNets && card(netTitle, netPlace, "instruction"))),
+    hasNets
+      ? card("PLC cycle and plant", cycle ? cycle.element : nothing("This net is too large for a page; `petril translate` writes it."), "cycle")
       : html("p", { class: "hint" }, "This run is too long for the token game to be part of the page."));
 
   function nothing(text) { return html("p", { class: "hint" }, text); }
