@@ -4,6 +4,7 @@
 
 pub mod agreement;
 pub mod assembler;
+pub mod browser;
 pub mod contest;
 pub mod document;
 pub mod forms;

@@ -28,9 +28,10 @@ function timingDiagram(playback, { matters, notes, seek }) {
     if (more) more.textContent = whole ? `only the ${some.length} that change` : `all ${all.length} variables`;
     const columns = playback.columns;
     // Values that change from scan to scan are to be read.
-    const longest = Math.max(0, ...playback.ticks.flatMap((tick) => tick.changes
-      .filter(([variable]) => lanes.includes(variable) && data.variables[variable][2] !== "BOOL")
-      .map(([, value]) => shown(value).length)));
+    let longest = 0;
+    for (const { changes } of playback.ticks) for (const [variable, value] of changes) {
+      if (data.variables[variable][2] !== "BOOL" && lanes.includes(variable)) longest = Math.max(longest, shown(value).length);
+    }
     const least = playback.run.kind === "scans" ? Math.max(44, Math.min(84, longest * 6.7 + 14)) : 20;
     // Where one can look into the scans they may be wide.
     const most = playback.length > 2 * columns ? 420 : 120;
