@@ -47,7 +47,7 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
         output::write_text(file, &junit::write(checked, stamp))?;
     }
     if let Some(file) = &forms.sarif {
-        output::write_text(file, &format!("{:#}\n", sarif::write(checked, stamp)))?;
+        output::write_text(file, &format!("{}\n", sarif::write(checked, stamp)))?;
     }
     if let Some(file) = &forms.csv {
         output::write_text(file, &report_csv::write(checked))?;

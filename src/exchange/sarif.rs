@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::checked::{Checked, tags, why};
 use super::stamp::Stamp;
-use crate::flat::Hazard;
+use crate::flat::{Hazard, value_text};
 use crate::logic::Origin;
 use crate::semantics::Role;
 use crate::translate::TransitionRole;
@@ -19,13 +19,17 @@ use crate::witness::{Executed, firing_story, story};
 const MAX_INSTRUCTIONS: usize = 1 << 16;
 /// A code flow has at most this many locations, the last ones.
 const MAX_LOCATIONS: usize = 1000;
+/// When the code flows of all results have this many locations, the others tell only what changed: a file may not be too large for
+/// those who take it.
+const MAX_ALL: usize = 8000;
 
 /// Writes a report as one run of the tool.
 #[must_use]
 pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let rules: Vec<Value> = checked.answers().map(|answer| rule(checked, answer)).collect();
+    let mut room = MAX_ALL;
     let results: Vec<Value> =
-        checked.answers().enumerate().filter_map(|(index, answer)| result(checked, answer, index)).collect();
+        checked.answers().enumerate().filter_map(|(index, answer)| result(checked, answer, index, &mut room)).collect();
     let mut properties = json!({
         "verdict": checked.report.verdict().word(),
         "assumptions": checked.report.assumptions,
@@ -77,7 +81,7 @@ fn level(answer: &Answer) -> &'static str {
     }
 }
 
-fn result(checked: &Checked<'_>, answer: &Answer, index: usize) -> Option<Value> {
+fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize) -> Option<Value> {
     let verdict = answer.outcome.verdict();
     if verdict == Verdict::Holds {
         return None;
@@ -95,7 +99,7 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize) -> Option<Value>
         at_line(checked, writer.line, &format!("{name} = {value} was written here in scan {scan}"))
     });
     let steps = match &answer.outcome {
-        Outcome::Violated(witness, _) => steps(checked, witness),
+        Outcome::Violated(witness, _) => steps(checked, witness, room),
         _ => Vec::new(),
     };
     let mut places: Vec<Value> = writers.collect();
@@ -141,7 +145,7 @@ fn met(answer: &Answer) -> Option<(usize, Hazard)> {
 }
 
 /// The last scan of a run, instruction by instruction.
-fn steps(checked: &Checked<'_>, witness: &Witness) -> Vec<Value> {
+fn steps(checked: &Checked<'_>, witness: &Witness, room: &mut usize) -> Vec<Value> {
     let (scan, instructions): (usize, Vec<Executed>) = match &witness.trace {
         Trace::Scans(trace) => {
             let last = trace.scans.len().saturating_sub(1);
@@ -161,10 +165,14 @@ fn steps(checked: &Checked<'_>, witness: &Witness) -> Vec<Value> {
             (scans.len(), scans.pop().unwrap_or_default())
         }
     };
+    let program = &checked.system.program;
     let from = instructions.len().saturating_sub(MAX_LOCATIONS);
+    let is_essential = |executed: &Executed| {
+        let declared = |(variable, _)| program.variable(variable).role != Role::Buffer;
+        executed.changes && executed.writes.is_some_and(declared) || executed.hazard.is_some()
+    };
     let one = |(order, executed): (usize, &Executed)| {
-        let program = &checked.system.program;
-        let result = crate::flat::value_text(executed.ty, executed.result);
+        let result = value_text(executed.ty, executed.result);
         let mut state = json!({ "CR": { "text": result } });
         let mut message = format!("scan {scan}: {}", checked.instruction(executed.line));
         if let Some((variable, value)) = executed.writes {
@@ -173,16 +181,19 @@ fn steps(checked: &Checked<'_>, witness: &Witness) -> Vec<Value> {
             state[name] = json!({ "text": value });
         }
         message.extend(executed.hazard.map(|hazard| format!(": {hazard}")));
-        let declared = |(variable, _)| program.variable(variable).role != Role::Buffer;
-        let essential = executed.changes && executed.writes.is_some_and(declared) || executed.hazard.is_some();
         json!({
             "location": at_line(checked, executed.line, &message),
             "state": state,
             "executionOrder": order + 1,
-            "importance": if essential { "essential" } else { "unimportant" },
+            "importance": if is_essential(executed) { "essential" } else { "unimportant" },
         })
     };
-    instructions.iter().enumerate().skip(from).map(one).collect()
+    let all = instructions.iter().enumerate().skip(from);
+    let has_room = instructions.len() - from <= *room;
+    *room -= if has_room { instructions.len() - from } else { 0 };
+    // Something is told of every run: where nothing changes, its last instruction.
+    let last = instructions.len().saturating_sub(1);
+    all.filter(|&(i, executed)| has_room || i == last || is_essential(executed)).map(one).collect()
 }
 
 /// The piece of the program that a line of flat code comes from.
