@@ -12,22 +12,21 @@ use super::{Failure, output, reason};
 
 /// Files that a check writes beside its report.
 #[derive(Clone, Debug, Default, clap::Args)]
-#[command(next_help_heading = "Files")]
 pub struct Forms {
     /// Write the report as one page for a browser, which needs nothing else: requirements, runs to step through, diagrams.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
     pub html: Option<PathBuf>,
     /// Write the report as JUnit XML, for continuous integration.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
     pub junit: Option<PathBuf>,
     /// Write what is violated or unknown as SARIF 2.1.0, for code scanning and editors.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
     pub sarif: Option<PathBuf>,
     /// Write a table (CSV) with one row for each requirement.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
     pub csv: Option<PathBuf>,
     /// Write the inputs of each counterexample into this folder, as tables that `petril simulate --inputs` reads.
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", help_heading = "Files")]
     pub trace_csv: Option<PathBuf>,
 }
 
