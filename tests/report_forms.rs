@@ -8,6 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use petril::exchange::{Checked, Stamp, html, sarif};
+use petril::source::Source;
 use serde_json::Value;
 use support::forms::{EXAMPLES, example, root, situations};
 use support::process::{Run, petril, run};
@@ -246,6 +248,27 @@ fn two_forms_do_not_share_a_file() {
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("give each form a file of its own"), "{}", run.stderr);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// Five hundred requirements with long runs make a page that can still be mailed.
+#[test]
+fn a_page_stays_small() {
+    let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
+    let program = read("examples/star-delta-broken.il");
+    let system = support::systems::system(&program, &[&read("nets/star-delta.net")]);
+    let mut report = support::reports::report(&system, &read("examples/star-delta.req"));
+    report.answers = report.answers.iter().cycle().take(500).cloned().collect();
+    for (i, answer) in report.answers.iter_mut().enumerate() {
+        answer.name = format!("{}_{i}", answer.name);
+    }
+    let source = Source::new("star-delta-broken.il", program);
+    let checked = Checked { system: &system, source: &source, report: &report };
+    let page = html::write(&checked, Stamp::default());
+    assert!(page.len() < 5_000_000, "{} bytes", page.len());
+    for answer in &report.answers {
+        assert!(page.contains(&format!("<h2>{}: {}</h2>", answer.outcome.verdict().word(), answer.name)));
+    }
+    assert!(sarif::write(&checked, Stamp::default()).to_string().len() < 10_000_000);
 }
 
 /// Names of requirements are user text, wherever they go.

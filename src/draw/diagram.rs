@@ -51,13 +51,17 @@ pub fn diagram(system: &System) -> Picture {
     sheet(system, &pieces, &title)
 }
 
-/// Draws the PLC's cycle and the plant: all but the program.
+/// Draws the PLC's cycle, and each component of the plant, without titles in the pictures: all but the program.
 #[must_use]
-pub fn surroundings(system: &System) -> Picture {
+pub fn surroundings(system: &System) -> Vec<Picture> {
     let end = system.program.end();
-    let steps = steps(system, |role| role == PlaceRole::Line(end) || role.part() == Part::System);
-    let pieces: Vec<Piece<'_>> = steps.into_iter().chain(components(system)).collect();
-    sheet(system, &pieces, "The PLC's cycle and the plant")
+    let cycle = steps(system, |role| role == PlaceRole::Line(end) || role.part() == Part::System);
+    let mut pictures = vec![untitled(system, &cycle, "PLC cycle")];
+    for mut component in components(system) {
+        let name = component.heading.take().unwrap_or_default();
+        pictures.push(untitled(system, &[component], name));
+    }
+    pictures
 }
 
 /// Draws the subnet of a line of flat code that control passes in several steps.
@@ -69,26 +73,38 @@ pub fn line(system: &System, line: usize, title: &str) -> Picture {
     sheet(system, &steps(system, is_in_line), title)
 }
 
+/// Pieces in columns, below a title and a legend.
 fn sheet(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
-    let columns = columns(system, pieces);
     let mut sheet = Picture::default();
     sheet.text(At { x: MARGIN, y: MARGIN }, Anchor::Start, title, true);
     sheet.text(At { x: MARGIN, y: MARGIN + 18.0 }, Anchor::Start, LEGEND, false);
-    let top = MARGIN + 56.0;
+    let (right, bottom) = fill(system, &mut sheet, pieces, MARGIN + 56.0);
+    let right = right.max(MARGIN + width(LEGEND).max(width(title)));
+    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
+}
+
+/// The same with neither in the picture.
+fn untitled(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
+    let mut sheet = Picture::default();
+    let (right, bottom) = fill(system, &mut sheet, pieces, MARGIN + RADIUS);
+    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
+}
+
+/// Draws pieces in columns, and says where they end on the right and below.
+fn fill(system: &System, sheet: &mut Picture, pieces: &[Piece<'_>], top: f64) -> (f64, f64) {
     let (mut x, mut bottom) = (MARGIN, top);
-    for column in columns {
+    for column in columns(system, pieces) {
         let widths = column.iter().map(|piece| piece.widths(system)).fold(Widths::default(), Widths::max);
         let mut y = top;
         for (i, piece) in column.iter().enumerate() {
             let below = column.get(i + 1).copied();
-            piece.draw(system, &mut sheet, At { x, y }, widths, below);
+            piece.draw(system, sheet, At { x, y }, widths, below);
             y += piece.height() + if below.is_some_and(|below| piece.ends_before(below)) { BREAK } else { 0.0 };
         }
         x += widths.total() + GUTTER;
         bottom = bottom.max(y);
     }
-    let right = (x - GUTTER).max(MARGIN + width(LEGEND).max(width(title)));
-    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
+    (x - GUTTER, bottom)
 }
 
 /// The wanted control places in their order, each with what happens there.

@@ -23,8 +23,9 @@ function timingDiagram(playback, { matters, notes, seek }) {
     : null;
   let drawing = null, width = 0, cells = [], cursor = null, now = { index: 0, values: [] };
 
-  function draw() {
-    const lanes = whole ? all : some;
+  // With `paper`, as wide as that, however narrow the scans become, and only what changes.
+  function draw(paper) {
+    const lanes = whole && !(paper && some.length > 0) ? all : some;
     if (more) more.textContent = whole ? `only the ${some.length} that change` : `all ${all.length} variables`;
     const columns = playback.columns;
     // Values that change from scan to scan are to be read.
@@ -35,7 +36,7 @@ function timingDiagram(playback, { matters, notes, seek }) {
     const least = playback.run.kind === "scans" ? Math.max(44, Math.min(84, longest * 6.7 + 14)) : 20;
     // Where one can look into the scans they may be wide.
     const most = playback.length > 2 * columns ? 420 : 120;
-    width = Math.min(most, Math.max(least, (box.clientWidth - 2) / columns));
+    width = paper ? Math.min(most, paper / columns) : Math.min(most, Math.max(least, (box.clientWidth - 2) / columns));
     const total = Math.ceil(width * columns) + 1, height = HEAD + LANE * lanes.length + 4;
     const grid = [], waves = [];
 
@@ -124,7 +125,7 @@ function timingDiagram(playback, { matters, notes, seek }) {
     draw();
     show(now.index, now.values);
   }).observe(box);
-  return { element, more, show };
+  return { element, more, show, draw };
 }
 
 // The lane of a variable.

@@ -44,6 +44,8 @@ function tokenGame(picture) {
   const moving = svg("g", { class: "moving" });
   const drawing = svg("svg", { class: "net", viewBox: `0 0 ${width} ${height}`, width, height, role: "img" },
     heads, arcs, places, [...boxes.values()].map((box) => box.shape), texts, moving);
+  // It may shrink to fit, but not so far that names cannot be read; it never grows.
+  drawing.style.minWidth = `${Math.min(width, Math.max(0.7 * width, 360))}px`;
   const element = html("div", { class: "net-box", tabindex: "-1" }, drawing);
   let glowing = [];
 

@@ -9,7 +9,7 @@ use crate::net::{PlaceId, TransitionId};
 use crate::translate::{System, TransitionRole};
 
 /// A picture with more shapes is not for eyes.
-const MAX_SHAPES: usize = 1200;
+const MAX_SHAPES: usize = 2000;
 /// All pictures together have at most this many shapes.
 const MAX_ALL: usize = 40_000;
 
@@ -68,11 +68,18 @@ impl<'a> Nets<'a> {
         let system = self.system;
         let mut room = MAX_ALL;
         let mut shapes = Map::new();
-        let cycle = self.picture(&surroundings(system), &mut room);
+        let around: Vec<Value> = (surroundings(system).iter())
+            .map(|picture| json!([picture.title, self.picture(picture, &mut room)]))
+            .collect();
+        // What is too large is not laid out either: subnets of multiplications have thousands of transitions.
+        let mut sizes = vec![0_usize; system.program.end()];
+        for role in &system.transitions {
+            if let TransitionRole::Line(line) = *role {
+                sizes[line] += 1;
+            }
+        }
         for line in std::mem::take(&mut self.lines) {
-            // What is not drawn is not laid out either: subnets of multiplications have thousands of transitions.
-            let size = system.transitions_of(TransitionRole::Line(line)).take(MAX_SHAPES).count();
-            if size < MAX_SHAPES && room > 0 {
+            if sizes[line] < MAX_SHAPES.min(room) {
                 let picture = subnet(system, line, None);
                 shapes.insert(line.to_string(), self.picture(&picture, &mut room));
             }
@@ -90,7 +97,7 @@ impl<'a> Nets<'a> {
         let names: Vec<&str> = self.place_list.iter().map(|&place| system.net.place(place).name).collect();
         let is_marked = |&(_, &place): &(usize, &PlaceId)| system.net.place(place).is_marked();
         let marked: Vec<usize> = self.place_list.iter().enumerate().filter(is_marked).map(|(i, _)| i).collect();
-        json!({ "places": names, "marked": marked, "transitions": transitions, "cycle": cycle, "lines": shapes })
+        json!({ "places": names, "marked": marked, "transitions": transitions, "around": around, "lines": shapes })
     }
 
     /// A picture as lists of numbers, positions rounded; null if it is too large.

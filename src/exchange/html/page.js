@@ -9,11 +9,12 @@ const ORDER = ["violated", "unknown", "holds"];
 // The two texts that one reads first.
 function headline() {
   const [violated, unknown, holds] = ORDER.map((verdict) => number(requirements, verdict));
+  const empty = requirements.filter((answer) => answer.vacuous).length;
   const failing = checks.filter((check) => check.verdict !== "holds");
   const checked = failing.map((check) => `${check.name} is ${check.verdict}`).join(", ");
   if (requirements.length === 0) return checked ? `${checked}.` : "No requirements were given; nothing went wrong.";
   const all = counted(requirements.length, "requirement");
-  const parts = [violated && `${violated} violated`, unknown && `${unknown} unknown`, holds && `${holds} hold${holds === 1 ? "s" : ""}`];
+  const parts = [violated && `${violated} violated`, unknown && `${unknown} unknown`, holds && `${holds} hold${holds === 1 ? "s" : ""}${empty ? ` (${empty} vacuously)` : ""}`];
   return `${all}: ${parts.filter(Boolean).join(", ")}${checked ? `; ${checked}` : ""}.`;
 }
 
@@ -128,7 +129,7 @@ function narrow() {
 function row(answer, i) {
   const panel = html("div", { class: "answer-panel", id: `panel-${i}`, role: "region", "aria-label": answer.name, hidden: true });
   const opener = html("button", { type: "button", class: "answer-head", "aria-expanded": "false", "aria-controls": `panel-${i}` },
-    badge(answer.verdict, answer.vacuous ? "vacuous" : undefined),
+    answer.vacuous ? badge("unknown", "vacuous") : badge(answer.verdict),
     html("span", { class: "answer-text" },
       html("span", { class: "answer-name" }, answer.name),
       html("span", { class: answer.sentence ? "answer-sentence" : "answer-sentence formula" }, answer.sentence || answer.words || answer.formula)),
@@ -144,6 +145,7 @@ function row(answer, i) {
     else {
       stages.forEach((stage) => stage.stop());
       panel.replaceChildren();
+      stages = [];
     }
   };
   opener.addEventListener("click", () => {
@@ -151,7 +153,7 @@ function row(answer, i) {
     toggle(open);
     if (open) try { history.replaceState(null, "", `#${encodeURIComponent(answer.name)}`); } catch { /* as in some viewers */ }
   });
-  rows.push({ answer, element, toggle, isOpen: () => !panel.hidden });
+  rows.push({ answer, element, toggle, isOpen: () => !panel.hidden, stages: () => stages });
   return element;
 }
 
@@ -162,7 +164,7 @@ function fill(panel, answer) {
   const line = (what, ...content) => [html("dt", {}, what), html("dd", {}, content)];
   const facts = html("dl", { class: "said" },
     answer.words && answer.sentence && line("Means", coded(answer.words)),
-    line("Formula", html("code", {}, answer.formula)),
+    (answer.sentence || answer.words) && line("Formula", html("code", {}, answer.formula)),
     answer.origin && line("Stands in", html("span", { class: "file" }, answer.origin)),
     answer.reason && answer.runs.length === 0 && line(answer.verdict === "unknown" ? "Unknown because" : "Mind", coded(answer.reason)),
     answer.verdict === "holds" && line("Verdict", `proved on all ${data.explored[0][1].toLocaleString("en")} states, under the assumptions above`));
@@ -189,7 +191,7 @@ function explanation(why, stage) {
     why.wanted.length > 0 && html("div", {}, html("h4", {}, "Wanted"), html("ul", {}, why.wanted.map((text) => html("li", {}, coded(text))))),
     writers.length + unwritten.length > 0 && html("div", {}, html("h4", {}, "Written"), html("ul", {}, writers, unwritten)),
     changes.length > 0 && html("div", {}, html("h4", {}, "Inputs that matter"), html("ul", {}, changes),
-      html("p", { class: "hint" }, "With these values this run would not break the requirement.",
+      html("p", { class: "hint" }, `With ${changes.length === 1 ? "this value" : "these values"} the run would not break the requirement.`,
         why.repair.smallest && changes.length > 1 && " No change of fewer inputs does that."),
       why.repair.others.length > 0 && html("details", {}, html("summary", {}, "Others would do as well"),
         html("ul", {}, why.repair.others.map((text) => html("li", {}, text))))),
@@ -222,13 +224,16 @@ function openNamed() {
 openNamed();
 addEventListener("hashchange", openNamed);
 
-// On paper everything that is violated is open.
+// On paper everything that is violated is open, and diagrams are as wide as it.
+const PAPER = 520;
 let opened = [];
 addEventListener("beforeprint", () => {
   opened = rows.filter((one) => one.answer.verdict === "violated" && !one.isOpen()).slice(0, 100);
   opened.forEach((one) => one.toggle(true));
+  rows.filter((one) => one.isOpen()).forEach((one) => one.stages().forEach((stage) => stage.draw(PAPER)));
 });
 addEventListener("afterprint", () => {
   opened.forEach((one) => one.toggle(false));
   opened = [];
+  rows.filter((one) => one.isOpen()).forEach((one) => one.stages().forEach((stage) => stage.draw()));
 });

@@ -63,7 +63,10 @@ impl<'a> Runs<'a> {
         let system = self.checked.system;
         let limit = MAX_INSTRUCTIONS.min(self.room.instructions);
         // A trace that does not replay has no verdict, and so is not here.
-        let tell = |from| story(system, trace, from, limit).unwrap_or_default();
+        let tell = |from| match limit {
+            0 => None,
+            _ => story(system, trace, from, limit).unwrap_or_default(),
+        };
         let last = trace.scans.len().saturating_sub(1);
         let (from, told) = match tell(0) {
             Some(told) => (0, told),

@@ -23,7 +23,7 @@ function buildStage(answer, run) {
   const source = listing();
   const table = runTable(playback, matters, seek);
   const hasNets = run.tokens && data.nets !== null;
-  const cycle = hasNets && data.nets.cycle ? tokenGame(data.nets.cycle) : null;
+  const around = (hasNets ? data.nets.around : []).map(([name, picture]) => ({ name, game: picture ? tokenGame(picture) : null }));
   const subnets = new Map();
   const netTitle = html("h4", {}, "Instruction");
   const netPlace = html("div", { class: "net-place" });
@@ -58,10 +58,17 @@ function buildStage(answer, run) {
         card(scans ? "Scans" : "Firings", table.element, "scans"),
         hasNets && card(netTitle, netPlace, "instruction"))),
     hasNets
-      ? card("PLC cycle and plant", cycle ? cycle.element : nothing("This net is too large for a page; `petril translate` writes it."), "cycle")
+      ? card("PLC cycle and plant", surroundings(), "cycle")
       : html("p", { class: "hint" }, "This run is too long for the token game to be part of the page."));
 
-  function nothing(text) { return html("p", { class: "hint" }, text); }
+  // The cycle, and beside it the components of the plant.
+  function surroundings() {
+    const [cycle, ...components] = around.map(({ name, game }) => html("figure", {}, html("figcaption", {}, name),
+      game ? game.element : nothing("This net is too large to be drawn here; `petril translate` writes it.")));
+    return html("div", { class: components.length ? "around" : "around alone" }, cycle, components.length > 0 && html("div", {}, components));
+  }
+
+  function nothing(text) { return html("p", { class: "hint" }, coded(text)); }
 
   function loopText() {
     if (run.loop === null) return null;
@@ -88,7 +95,7 @@ function buildStage(answer, run) {
     source.show(playback, index);
     table.show(tick, index);
     if (marking) {
-      if (cycle) cycle.show(marking, tick.fired, on);
+      for (const { game } of around) if (game) game.show(marking, tick.fired, on);
       showInstruction(tick, marking, on);
     }
     const text = describe(tick);
@@ -147,6 +154,8 @@ function buildStage(answer, run) {
       if (index + 1 >= playback.length) stop();
       else show(index + 1, true);
     }, 600);
+    // Nobody can listen as fast as it plays.
+    where.setAttribute("aria-live", "off");
     playing.replaceChildren(sign("pause"));
     playing.setAttribute("aria-label", "Pause");
     playing.title = "Pause";
@@ -155,20 +164,23 @@ function buildStage(answer, run) {
   function stop() {
     clearInterval(timer);
     timer = null;
+    where.setAttribute("aria-live", "polite");
     playing.replaceChildren(sign("play"));
     playing.setAttribute("aria-label", "Play");
     playing.title = "Play";
   }
 
-  // Where the story is decided: the instruction that wrote the value, or the end.
+  // Where the story is decided: at the instruction that wrote the value, if that was in the scan that is wrong, or at its end.
   function begin() {
+    const broken = run.notes.length > 0 && scans ? run.notes[run.notes.length - 1][1] : playback.scans - 1;
     const writers = run.purpose === "counterexample" && answer.why ? answer.why.writers : [];
-    const last = writers[writers.length - 1];
-    show(last ? playback.find(last[2], last[3]) : playback.length - 1, false);
+    const last = writers.filter(([, , scan]) => scan === broken).pop();
+    show(last ? playback.find(broken, last[3]) : scans ? playback.find(broken, -1) : playback.length - 1, false);
   }
 
   const stage = {
-    element, byLine, byScan, begin, stop, playback, source,
+    element, byLine, byScan, begin, stop,
+    draw: (paper) => { diagram.draw(paper); show(index, false); },
     to: (scan, line) => { stop(); show(playback.find(scan, line), false); },
     ends: (last) => { stop(); show(last ? playback.length - 1 : 0, false); },
   };

@@ -7,14 +7,17 @@ function runTable(playback, matters, seek) {
 function scanTable(playback, matters, seek) {
   const { run } = playback;
   const groups = ["input", "memory", "output"].map((role) => data.variables.map((v, i) => [i, v]).filter(([, v]) => v[1] === role));
+  const changing = new Set(run.scans.flatMap((scan) => [scan.in, scan.end || []].flatMap((list) => list.filter((_, i) => i % 2 === 0))));
+  const still = (variable) => !changing.has(variable) && "still";
+  const named = (...names) => names.filter(Boolean).join(" ") || undefined;
   const hasMoves = run.scans.some((scan) => scan.moves.length > 0);
   const shownGroups = groups.filter((group) => group.length > 0);
   const heads = { input: "inputs", memory: "memory", output: "outputs" };
   const first = html("tr", {}, html("th", { scope: "col", rowspan: 2 }, "scan"),
     shownGroups.map((group) => html("th", { scope: "colgroup", colspan: group.length, class: "group" }, heads[group[0][1][1]])),
     hasMoves && html("th", { scope: "col", rowspan: 2, class: "group moves" }, "plant, before the scan"));
-  const second = html("tr", {}, shownGroups.map((group) => group.map(([, [name]], j) =>
-    html("th", { scope: "col", class: j === 0 ? "begins" : undefined }, name))));
+  const second = html("tr", {}, shownGroups.map((group) => group.map(([variable, [name]], j) =>
+    html("th", { scope: "col", class: named(j === 0 && "begins", still(variable)) }, name))));
   let values = data.variables.map((variable) => variable[3]);
   const rows = run.scans.map((scan, k) => {
     const before = values.slice();
@@ -24,8 +27,7 @@ function scanTable(playback, matters, seek) {
       const unknown = !scan.end && role !== "input";
       const changed = !unknown && values[variable] !== before[variable];
       const why = matters.get(`${k}:${variable}`);
-      const classes = [j === 0 && "begins", changed && "changed", why && "matters"].filter(Boolean).join(" ");
-      return html("td", { class: classes || undefined, title: why || (changed ? `${name} changed from ${shown(before[variable])}` : undefined) },
+      return html("td", { class: named(j === 0 && "begins", still(variable), changed && "changed", why && "matters"), title: why || (changed ? `${name} changed from ${shown(before[variable])}` : undefined) },
         unknown ? "?" : shown(values[variable]), why && html("span", { class: "sr" }, ` (${why})`));
     }));
     const go = () => seek(playback.find(k, -1));
@@ -50,7 +52,8 @@ function firingTable(playback, seek) {
     html("td", { class: "text" }, firing.name),
     html("td", { class: "text" }, firing.line === undefined ? "" : data.code[firing.line][1]),
     html("td", { class: "text" }, firing.set ? `${data.variables[firing.set[0]][0]} = ${shown(firing.set[1])}` : "")));
-  const head = html("tr", {}, ["firing", "scan", "transition", "instruction", "variable"].map((name) => html("th", { scope: "col" }, name)));
+  const head = html("tr", {}, ["firing", "scan", "transition", "instruction", "variable"].map((name, i) =>
+    html("th", { scope: "col", class: i > 1 ? "text" : undefined }, name)));
   const all = [start, ...rows];
   const element = html("div", { class: "table-box", tabindex: "0", role: "region", "aria-label": "Firings" },
     html("table", { class: "run-table" }, html("thead", {}, head), html("tbody", {}, all)));
