@@ -3,7 +3,7 @@
 
 mod support;
 
-use petril::draw::{Positions, diagram, subnet};
+use petril::draw::{Positions, diagram, subnet, surroundings};
 use petril::flat::{Condition, Element, Function, Instruction, Operand, Target};
 use petril::semantics::{Role, Type, VarId};
 use petril::translate::{Plant, System, TransitionRole};
@@ -135,7 +135,7 @@ fn arcs(system: &System, of: impl Fn(TransitionRole) -> bool) -> (usize, usize) 
 }
 
 fn assert_diagram(system: &System) {
-    let shapes = assert_legible(&diagram(system));
+    let shapes = assert_legible(&diagram(system).svg());
     assert_eq!(shapes.white.len(), system.net.places().len(), "every place once as itself");
     assert_eq!(shapes.boxes.len(), system.net.transitions().len());
     assert_eq!((shapes.arrows.len(), shapes.dots.len()), arcs(system, |_| true));
@@ -146,7 +146,7 @@ fn the_subnet_of_every_instruction_is_drawn_whole_and_legible() {
     let system = system(EVERY_INSTRUCTION, &[CYLINDER]);
     for line in 0..system.program.end() {
         let text = system.program.text(system.program.code[line].instruction);
-        let shapes = assert_legible(&subnet(&system, line, Some(&text)));
+        let shapes = assert_legible(&subnet(&system, line, Some(&text)).svg());
         let transitions: Vec<_> = system.transitions_of(TransitionRole::Line(line)).collect();
         let mut places: Vec<_> = transitions
             .iter()
@@ -173,6 +173,13 @@ fn the_subnet_of_every_instruction_is_drawn_whole_and_legible() {
 #[test]
 fn a_whole_system_is_drawn_whole_and_legible() {
     assert_diagram(&system(TWO_HAND_SWITCH, &[HANDS]));
+    for (system, components) in [(system(TWO_HAND_SWITCH, &[HANDS]), 2), (system(EVERY_INSTRUCTION, &[CYLINDER]), 1)] {
+        let pictures = surroundings(&system);
+        assert_eq!(pictures.len(), 1 + components);
+        for picture in pictures {
+            assert_legible(&picture.svg());
+        }
+    }
     assert_diagram(&system(TWO_HAND_SWITCH, &[]));
     assert_diagram(&system(EVERY_INSTRUCTION, &[CYLINDER]));
     assert_diagram(&system("PROGRAM least VAR q : BOOL; END_VAR\nLD q\nEND_PROGRAM", &[]));
@@ -213,7 +220,7 @@ fn wide_data_is_drawn_whole_and_legible() {
     let system = wide();
     assert_diagram(&system);
     for line in [0, 1, 4, 5, 6] {
-        let shapes = assert_legible(&subnet(&system, line, None));
+        let shapes = assert_legible(&subnet(&system, line, None).svg());
         assert_eq!(shapes.boxes.len(), system.transitions_of(TransitionRole::Line(line)).count());
     }
 }
@@ -224,7 +231,7 @@ fn a_long_program_takes_space_and_time_in_proportion() {
         let body: String = (0..lines).map(|i| format!("LD x{}\n", i % 7)).collect();
         system(&format!("PROGRAM p VAR x0, x1, x2, x3, x4, x5, x6 : BOOL; END_VAR\n{body}END_PROGRAM"), &[])
     };
-    let [short, long] = [100, 2000].map(|lines| diagram(&program(lines)).len());
+    let [short, long] = [100, 2000].map(|lines| diagram(&program(lines)).svg().len());
     assert!(long < 21 * short, "{short} bytes for 100 lines, {long} for 2000");
 }
 

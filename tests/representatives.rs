@@ -26,7 +26,7 @@ fn bound(system: &System, texts: &[String]) -> Vec<(Requirement, Demand)> {
 fn found(program: &FlatProgram, texts: &[String]) -> Domains {
     let system = System::new(program.clone(), Plant::default());
     let requirements = bound(&system, texts);
-    representatives(&system, &requirements.iter().map(|(_, bound)| bound).collect::<Vec<_>>())
+    representatives(&system, &requirements.iter().filter_map(|(_, demand)| demand.formula()).collect::<Vec<_>>())
 }
 
 /// Name, verdict and length of the trace of each requirement, and the values of the outputs on it.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use petril::verdict::Examination;
 
+use super::forms::Forms;
 use super::meaning::{Meaning, Reading};
 
 /// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
@@ -110,6 +111,9 @@ pub struct Check {
     /// Draw timing diagrams in ASCII alone.
     #[arg(long)]
     pub ascii: bool,
+    /// What is written into files.
+    #[command(flatten)]
+    pub forms: Forms,
     /// What the program means on its PLC.
     #[command(flatten)]
     pub meaning: Meaning,

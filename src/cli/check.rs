@@ -1,8 +1,9 @@
 //! `petril check`: requirements on a program.
 
 use std::process::ExitCode;
+use std::time::Instant;
 
-use petril::exchange::json;
+use petril::exchange::{Checked, json};
 use petril::logic::{self, Assertion, Assumption, Demand, Requirement, representatives};
 use petril::translate::System;
 use petril::verdict::{Options, Verdict, check};
@@ -12,7 +13,7 @@ use super::console::Console;
 use super::input::Program;
 use super::progress::Watcher;
 use super::requirements::{Asked, Bound};
-use super::{Failure, Outcome, input, report};
+use super::{Failure, Outcome, forms, input, report};
 
 pub fn run(arguments: &Check, console: &Console) -> Outcome {
     let view = match arguments.view {
@@ -37,6 +38,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     if view == logic::View::Scan {
         system = with_representatives(system, &requirements, &assumptions, &assertions);
     }
+    let started = Instant::now();
     let watcher = Watcher::new(&arguments.limits)?;
     let options = Options {
         view,
@@ -48,8 +50,10 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     };
     let result = check(&system, &requirements, &options, &mut |progress| watcher.watch(progress));
     watcher.finish();
+    let checked = Checked { system: &system, source: &source, report: &result };
+    forms::write(&arguments.forms, &checked, started)?;
     if arguments.json {
-        console.print_json(json::report(&system, &result, source.name()))?;
+        console.print_json(json::report(&checked, arguments.by_line || arguments.details))?;
     } else {
         let text = report::Text { system: &system, source: &source, arguments, console };
         console.print(&text.report(&result))?;

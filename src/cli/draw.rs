@@ -31,7 +31,7 @@ pub fn run(arguments: &Draw, console: &Console) -> Outcome {
     };
     let title = program.text(program.code[line].instruction);
     let system = System::new(program, Plant::default());
-    output::write_text(&arguments.output, &draw::subnet(&system, line, Some(title.trim())))?;
+    output::write_text(&arguments.output, &draw::subnet(&system, line, Some(title.trim())).svg())?;
     console.message(&format!("{}\n", arguments.output.display()));
     Ok(SUCCESS)
 }

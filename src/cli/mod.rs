@@ -9,6 +9,7 @@ mod draw;
 mod explain;
 mod flat;
 mod format;
+mod forms;
 mod input;
 mod input_table;
 mod meaning;

@@ -21,7 +21,7 @@ pub fn run(arguments: &Translate, console: &Console) -> Outcome {
             let message = format!("a picture of {} nodes would show nothing; ", places + transitions);
             return Err(Failure::Message(message + "`petril draw --line N` draws one line of the program"));
         }
-        Format::Svg => output::write_text(&arguments.output, &draw::diagram(&system))?,
+        Format::Svg => output::write_text(&arguments.output, &draw::diagram(&system).svg())?,
         Format::Pnml => {
             let (positions, notes, units) = (Positions::of(&system), Notes::of(&system, &source), system.units());
             let extras =

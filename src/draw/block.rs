@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::crossings::{self, Columns};
-use super::svg::{Anchor, At, BOX_HEIGHT, Head, PlaceStyle, RADIUS, Sheet, width};
+use super::picture::{Anchor, At, DrawnArc, Head, Picture, PlaceStyle};
+use super::svg::{BOX_HEIGHT, RADIUS, width};
 use crate::net::{PlaceId, TransitionId};
 use crate::translate::{System, TransitionRole};
 
@@ -118,7 +119,7 @@ impl<'a> Block<'a> {
     }
 
     /// Draws it, its upper left corner at `at`. `style` says how a place is to be drawn, if at all.
-    pub fn draw(&self, sheet: &mut Sheet, at: At, widths: Widths, style: impl Fn(PlaceId) -> Option<PlaceStyle>) {
+    pub fn draw(&self, sheet: &mut Picture, at: At, widths: Widths, style: impl Fn(PlaceId) -> Option<PlaceStyle>) {
         let net = &self.system.net;
         let height = self.height();
         let columns = widths.columns().map(|x| at.x + x);
@@ -134,7 +135,7 @@ impl<'a> Block<'a> {
         }
         for (i, &id) in self.middle.iter().enumerate() {
             let centre = At { x: columns[1], y: spread(i, self.middle.len()) };
-            sheet.transition(centre, widths.middle, &caption(self.system, id));
+            sheet.transition(id, centre, widths.middle, &caption(self.system, id));
             self.draw_arcs(sheet, id, centre, widths.middle / 2.0, &positions);
         }
         let sides = [(&self.left, Anchor::End, -1.0), (&self.right, Anchor::Start, 1.0)];
@@ -142,7 +143,7 @@ impl<'a> Block<'a> {
             for place in places {
                 let Some(style) = style(*place) else { continue };
                 let at = positions[place];
-                sheet.place(at, style, net.place(*place).is_marked());
+                sheet.place(at, style, *place, net.place(*place).is_marked());
                 let label = At { x: at.x + direction * (RADIUS + LABEL_GAP), y: at.y };
                 sheet.text(label, anchor, net.place(*place).name, false);
             }
@@ -152,7 +153,7 @@ impl<'a> Block<'a> {
     /// The arcs of a transition, straight from its side to the places; higher places get higher ports.
     fn draw_arcs(
         &self,
-        sheet: &mut Sheet,
+        sheet: &mut Picture,
         id: TransitionId,
         centre: At,
         half_width: f64,
@@ -167,11 +168,12 @@ impl<'a> Block<'a> {
                 let shift = pitch * (i as f64 - (here.len() - 1) as f64 / 2.0);
                 let port = At { x: centre.x + side * half_width, y: centre.y + shift };
                 let rim = rim(place, port);
-                match arc {
-                    Arc::Consume => sheet.arc(rim, port, Head::Arrow),
-                    Arc::Read => sheet.arc(rim, port, Head::Dot),
-                    Arc::Produce => sheet.arc(port, rim, Head::Arrow),
-                }
+                let (from, to, head) = match arc {
+                    Arc::Consume => (rim, port, Head::Arrow),
+                    Arc::Read => (rim, port, Head::Dot),
+                    Arc::Produce => (port, rim, Head::Arrow),
+                };
+                sheet.arcs.push(DrawnArc { transition: id, from, to, head });
             }
         }
     }

@@ -5,9 +5,10 @@
 
 use super::block::{Block, LABEL_GAP, Widths};
 use super::control::Control;
-use super::svg::{Anchor, At, PlaceStyle, RADIUS, Sheet, width};
+use super::picture::{Anchor, At, Picture, PlaceStyle};
+use super::svg::{RADIUS, width};
 use crate::net::{PlaceId, TransitionId};
-use crate::translate::{PlaceRole, System, TransitionRole};
+use crate::translate::{Part, PlaceRole, System, TransitionRole};
 
 /// Room around the picture.
 const MARGIN: f64 = 24.0;
@@ -15,6 +16,8 @@ const MARGIN: f64 = 24.0;
 const GUTTER: f64 = 40.0;
 /// Room for a heading and what it is set off by.
 const HEADING: f64 = 64.0;
+/// Room between two steps that do not follow each other.
+const BREAK: f64 = 48.0;
 /// Distance of the bits.
 const BIT_PITCH: f64 = 30.0;
 /// Width of the picture for one unit of height, about.
@@ -40,7 +43,7 @@ enum Content<'a> {
 
 /// Draws the net of a system.
 #[must_use]
-pub fn diagram(system: &System) -> String {
+pub fn diagram(system: &System) -> Picture {
     let steps = steps(system, |_| true);
     let pieces: Vec<Piece<'_>> = steps.into_iter().chain(components(system)).chain(bits(system)).collect();
     let title =
@@ -48,8 +51,21 @@ pub fn diagram(system: &System) -> String {
     sheet(system, &pieces, &title)
 }
 
+/// Draws the PLC's cycle, and each component of the plant, without titles in the pictures: all but the program.
+#[must_use]
+pub fn surroundings(system: &System) -> Vec<Picture> {
+    let end = system.program.end();
+    let cycle = steps(system, |role| role == PlaceRole::Line(end) || role.part() == Part::System);
+    let mut pictures = vec![untitled(system, &cycle, "PLC cycle")];
+    for mut component in components(system) {
+        let name = component.heading.take().unwrap_or_default();
+        pictures.push(untitled(system, &[component], name));
+    }
+    pictures
+}
+
 /// Draws the subnet of a line of flat code that control passes in several steps.
-pub fn line(system: &System, line: usize, title: &str) -> String {
+pub fn line(system: &System, line: usize, title: &str) -> Picture {
     let is_in_line = |role| match role {
         PlaceRole::Line(own) | PlaceRole::Within(own, _) | PlaceRole::Hazard(own, _) => own == line,
         _ => false,
@@ -57,25 +73,38 @@ pub fn line(system: &System, line: usize, title: &str) -> String {
     sheet(system, &steps(system, is_in_line), title)
 }
 
-fn sheet(system: &System, pieces: &[Piece<'_>], title: &str) -> String {
-    let columns = columns(system, pieces);
-    let mut sheet = Sheet::default();
+/// Pieces in columns, below a title and a legend.
+fn sheet(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
+    let mut sheet = Picture::default();
     sheet.text(At { x: MARGIN, y: MARGIN }, Anchor::Start, title, true);
     sheet.text(At { x: MARGIN, y: MARGIN + 18.0 }, Anchor::Start, LEGEND, false);
-    let top = MARGIN + 56.0;
+    let (right, bottom) = fill(system, &mut sheet, pieces, MARGIN + 56.0);
+    let right = right.max(MARGIN + width(LEGEND).max(width(title)));
+    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
+}
+
+/// The same with neither in the picture.
+fn untitled(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
+    let mut sheet = Picture::default();
+    let (right, bottom) = fill(system, &mut sheet, pieces, MARGIN + RADIUS);
+    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
+}
+
+/// Draws pieces in columns, and says where they end on the right and below.
+fn fill(system: &System, sheet: &mut Picture, pieces: &[Piece<'_>], top: f64) -> (f64, f64) {
     let (mut x, mut bottom) = (MARGIN, top);
-    for column in columns {
+    for column in columns(system, pieces) {
         let widths = column.iter().map(|piece| piece.widths(system)).fold(Widths::default(), Widths::max);
         let mut y = top;
         for (i, piece) in column.iter().enumerate() {
-            piece.draw(system, &mut sheet, At { x, y }, widths, column.get(i + 1));
-            y += piece.height();
+            let below = column.get(i + 1).copied();
+            piece.draw(system, sheet, At { x, y }, widths, below);
+            y += piece.height() + if below.is_some_and(|below| piece.ends_before(below)) { BREAK } else { 0.0 };
         }
         x += widths.total() + GUTTER;
         bottom = bottom.max(y);
     }
-    let right = (x - GUTTER).max(MARGIN + width(LEGEND).max(width(title)));
-    sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
+    (x - GUTTER, bottom)
 }
 
 /// The wanted control places in their order, each with what happens there.
@@ -163,6 +192,19 @@ impl Piece<'_> {
         self.heading.map_or(0.0, |_| HEADING) + content
     }
 
+    /// Whether it is the step that begins at a control place.
+    fn is_step_of(&self, place: PlaceId) -> bool {
+        matches!(&self.content, Content::Step { own, .. } if *own == place)
+    }
+
+    /// Whether both are steps, and the token does not go from it to the one below.
+    fn ends_before(&self, below: &Self) -> bool {
+        match (&self.content, &below.content) {
+            (Content::Step { next, .. }, Content::Step { .. }) => !below.is_step_of(*next),
+            _ => false,
+        }
+    }
+
     fn widths(&self, system: &System) -> Widths {
         match &self.content {
             Content::Step { block, text, .. } => block.widths().max(Widths { left: width(text), ..Widths::default() }),
@@ -172,14 +214,14 @@ impl Piece<'_> {
     }
 
     /// Draws it; `below` is the next piece of the column.
-    fn draw(&self, system: &System, sheet: &mut Sheet, mut at: At, widths: Widths, below: Option<&&Piece<'_>>) {
+    fn draw(&self, system: &System, sheet: &mut Picture, mut at: At, widths: Widths, below: Option<&Piece<'_>>) {
         if let Some(heading) = self.heading {
             sheet.text(At { x: at.x, y: at.y + 38.0 }, Anchor::Start, heading, true);
             at.y += HEADING;
         }
         match &self.content {
             Content::Step { block, own, next, text } => {
-                let next_follows = below.is_some_and(|piece| matches!(piece.content, Content::Step { .. }));
+                let next_follows = below.is_some_and(|below| below.is_step_of(*next));
                 block.draw(sheet, at, widths, |place| match place {
                     _ if place == *own => Some(PlaceStyle::Own),
                     _ if place == *next && (next_follows || !block.touches(place)) => None,
@@ -195,9 +237,9 @@ impl Piece<'_> {
             Content::Bit(places) => {
                 let centre = at.x + widths.left + LABEL_GAP + RADIUS;
                 let sides = [(centre, Anchor::End, -1.0), (centre + 3.0 * RADIUS, Anchor::Start, 1.0)];
-                for (&place, (x, anchor, direction)) in places.iter().zip(sides) {
-                    let place = system.net.place(place);
-                    sheet.place(At { x, y: at.y }, PlaceStyle::Own, place.is_marked());
+                for (&id, (x, anchor, direction)) in places.iter().zip(sides) {
+                    let place = system.net.place(id);
+                    sheet.place(At { x, y: at.y }, PlaceStyle::Own, id, place.is_marked());
                     let label = At { x: x + direction * (RADIUS + LABEL_GAP), y: at.y };
                     sheet.text(label, anchor, place.name, false);
                 }

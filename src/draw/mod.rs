@@ -11,12 +11,15 @@ mod control;
 mod crossings;
 mod diagram;
 mod escape;
+mod picture;
 mod positions;
 mod subnet;
 mod svg;
 
-pub use diagram::diagram;
+pub use diagram::{diagram, surroundings};
+pub use picture::{Anchor, At, DrawnArc, DrawnPlace, DrawnText, DrawnTransition, Head, Picture, PlaceStyle};
 pub use positions::{Point, Positions};
 pub use subnet::subnet;
+pub use svg::{BOX_HEIGHT, RADIUS};
 
 pub(crate) use escape::printable;

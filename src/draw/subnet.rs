@@ -2,7 +2,8 @@
 
 use super::block::Block;
 use super::diagram;
-use super::svg::{Anchor, At, BOX_HEIGHT, PlaceStyle, RADIUS, Sheet, width};
+use super::picture::{Anchor, At, Picture, PlaceStyle};
+use super::svg::{BOX_HEIGHT, RADIUS, width};
 use crate::net::PlaceId;
 use crate::translate::{PlaceRole, System, TransitionRole};
 
@@ -16,7 +17,7 @@ const MARGIN: f64 = 16.0;
 /// # Panics
 /// If the program does not have the line.
 #[must_use]
-pub fn subnet(system: &System, line: usize, title: Option<&str>) -> String {
+pub fn subnet(system: &System, line: usize, title: Option<&str>) -> Picture {
     let transitions: Vec<_> = system.transitions_of(TransitionRole::Line(line)).collect();
     let own = system.place(PlaceRole::Line(line));
     if system.moves(own).len() < transitions.len() {
@@ -32,7 +33,7 @@ pub fn subnet(system: &System, line: usize, title: Option<&str>) -> String {
     let block = Block::new(system, left, &transitions);
 
     let widths = block.widths();
-    let mut sheet = Sheet::default();
+    let mut sheet = Picture::default();
     let mut top = MARGIN + RADIUS.max(BOX_HEIGHT / 2.0);
     if let Some(title) = title {
         sheet.text(At { x: MARGIN, y: MARGIN + 4.0 }, Anchor::Start, title, true);

@@ -1,14 +1,19 @@
 //! Reports as JSON, for programs. Field names are part of the interface: they are only ever added to.
+//! `docs/schema/report.schema.json` says what may stand where.
 
 use serde_json::{Map, Value, json};
 
+use super::checked::{Checked, Purpose, runs, why};
 use crate::diagnostic::Diagnostic;
 use crate::logic::View;
 use crate::semantics::{Role, Type, VarId};
 use crate::source::Source;
 use crate::translate::{Part, System, TransitionRole};
-use crate::verdict::{Answer, Outcome, Remark, Report, Trace, Witness};
-use crate::witness::{FiringTrace, Scan, ScanTrace};
+use crate::verdict::{Answer, Change, Coverage, Independence, Outcome, Remark, Trace, Why, Witness};
+use crate::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
+
+/// A last scan that takes more instructions is not told.
+const MAX_INSTRUCTIONS: usize = 1 << 20;
 
 /// A diagnostic: code, severity, message, file, line and column from 1, help.
 #[must_use]
@@ -25,16 +30,17 @@ pub fn diagnostic(diagnostic: &Diagnostic, source: &Source) -> Value {
     })
 }
 
-/// The report of a check. `file` is the name of the program's file.
+/// The report of a check; `by_line` tells the last scan of each run instruction by instruction, too.
 #[must_use]
-pub fn report(system: &System, report: &Report, file: &str) -> Value {
+pub fn report(checked: &Checked<'_>, by_line: bool) -> Value {
+    let Checked { system, source, report } = *checked;
     let size = |(places, transitions)| json!({ "places": places, "transitions": transitions });
     let parts: Map<String, Value> =
         Part::ALL.map(|part| (part.name().to_owned(), size(system.size(part)))).into_iter().collect();
     let exploration = &report.exploration;
-    let answers = |answers: &[Answer]| answers.iter().map(|a| answer(system, a, exploration.view)).collect::<Vec<_>>();
+    let answers = |answers: &[Answer]| answers.iter().map(|a| answer(checked, a, by_line)).collect::<Vec<_>>();
     json!({
-        "program": { "name": system.program.name, "file": file, "lines": system.program.end() },
+        "program": { "name": system.program.name, "file": source.name(), "lines": system.program.end() },
         "net": {
             "places": system.net.places().len(),
             "transitions": system.net.transitions().len(),
@@ -53,8 +59,21 @@ pub fn report(system: &System, report: &Report, file: &str) -> Value {
         "assumptions": report.assumptions,
         "requirements": answers(&report.answers),
         "checks": answers(&report.checks),
-        "notes": report.remarks.iter().map(|r| remark(system, r)).collect::<Vec<_>>(),
+        "notes": report.remarks.iter().map(|r| remark(checked, r)).collect::<Vec<_>>(),
+        "coverage": report.coverage.as_ref().map(|found| coverage(checked, found)),
         "verdict": report.verdict().word(),
+    })
+}
+
+fn coverage(checked: &Checked<'_>, coverage: &Coverage) -> Value {
+    let names = |ids: &[VarId]| ids.iter().map(|&id| checked.name(id)).collect::<Vec<_>>();
+    let never = coverage.never_executed.as_ref();
+    json!({
+        "lines": coverage.lines,
+        "never_executed": never.map(|lines| lines.iter().map(|line| line + 1).collect::<Vec<_>>()),
+        "never_read": names(&coverage.never_read),
+        "never_written": names(&coverage.never_written),
+        "unasked": names(&coverage.unasked),
     })
 }
 
@@ -67,13 +86,15 @@ fn inputs(system: &System) -> Vec<Value> {
     system.free_inputs().map(one).collect()
 }
 
-fn remark(system: &System, remark: &Remark) -> Value {
+fn remark(checked: &Checked<'_>, remark: &Remark) -> Value {
     match *remark {
         Remark::NeverChanges(output, pattern) => {
-            let output = system.program.variable(output);
-            json!({ "kind": "never-changes", "variable": output.name, "value": value(output.ty, pattern) })
+            let value = variable_value(checked.system, output, pattern);
+            json!({ "kind": "never-changes", "variable": checked.name(output), "value": value })
         }
-        Remark::NeverExecuted(line) => json!({ "kind": "never-executed", "line": line + 1 }),
+        Remark::NeverExecuted(line) => {
+            json!({ "kind": "never-executed", "line": line + 1, "source_line": checked.source_line(line) })
+        }
     }
 }
 
@@ -84,36 +105,113 @@ fn view(view: View) -> &'static str {
     }
 }
 
-fn answer(system: &System, answer: &Answer, view: View) -> Value {
-    let witness = answer.outcome.witness();
-    let reason = match &answer.outcome {
-        Outcome::Unknown(reason) => Some(reason.clone()),
-        Outcome::Holds { vacuous: Some(vacuity), .. } => Some(format!("vacuous: {}", vacuity.sentence())),
-        Outcome::Holds { .. } => None,
-        Outcome::Violated(witness, _) => {
-            Some(witness.notes.iter().map(|note| note.sentence(view)).collect::<Vec<_>>().join("; "))
-        }
-    };
+fn answer(checked: &Checked<'_>, answer: &Answer, by_line: bool) -> Value {
+    let mut run = None;
+    let mut example = None;
+    for (purpose, witness) in runs(answer) {
+        let slot = if purpose == Purpose::Example { &mut example } else { &mut run };
+        *slot = Some(trace(checked, witness, by_line));
+    }
     json!({
         "name": answer.name,
         "sentence": answer.sentence,
+        "words": answer.words,
         "formula": answer.formula,
+        "tags": answer.tags.iter().map(|tag| json!({ "name": tag.name, "value": tag.value })).collect::<Vec<_>>(),
+        "origin": answer.origin.as_ref().map(|o| json!({ "file": o.file, "line": o.line, "column": o.column })),
         "verdict": answer.outcome.verdict().word(),
-        "reason": reason,
+        "reason": checked.reason(answer),
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
-        "trace": witness.map(|witness| trace(system, witness)),
+        "independent_of": answer.independent.map(|what| match what {
+            Independence::OfEverything => "everything",
+            Independence::OfTheProgram => "program",
+        }),
+        "why": why(answer).map(|why| explanation(checked, why)),
+        "trace": run,
+        "example": example,
     })
 }
 
-fn trace(system: &System, witness: &Witness) -> Value {
+/// Scans count from 1, lines too.
+fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
+    let value = |variable, pattern| variable_value(checked.system, variable, pattern);
+    let writers = why.writers.iter().map(|writer| {
+        json!({
+            "variable": checked.name(writer.variable),
+            "value": value(writer.variable, writer.value),
+            "scan": writer.scan + 1,
+            "line": writer.line + 1,
+            "source_line": checked.source_line(writer.line),
+        })
+    });
+    let changes = |changes: &[Change]| -> Vec<Value> {
+        let one = |change: &Change| {
+            json!({
+                "scan": change.scan + 1,
+                "input": checked.name(change.input),
+                "from": value(change.input, change.from),
+                "to": value(change.input, change.to),
+            })
+        };
+        changes.iter().map(one).collect()
+    };
+    let repair = why.repair.as_ref().map(|repair| {
+        json!({
+            "changes": changes(&repair.changes),
+            "smallest": repair.is_smallest,
+            "others": repair.others.iter().map(|other| changes(other)).collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "wanted": why.wanted,
+        "writers": writers.collect::<Vec<_>>(),
+        "unwritten": why.unwritten.iter().map(|&id| checked.name(id)).collect::<Vec<_>>(),
+        "repair": repair,
+        "unrepaired": why.unrepaired,
+    })
+}
+
+fn trace(checked: &Checked<'_>, witness: &Witness, by_line: bool) -> Value {
     // States of the scan view are the ends of scans, which count from 1; before the first firing there is a state 0.
     let (mut document, from) = match &witness.trace {
-        Trace::Scans(trace) => (scans(system, trace), 1),
-        Trace::Firings(trace) => (firings(system, trace), 0),
+        Trace::Scans(trace) => (scans(checked.system, trace), 1),
+        Trace::Firings(trace) => (firings(checked.system, trace), 0),
     };
     let notes = witness.notes.iter().map(|n| json!({ "first": n.first + from, "last": n.last + from, "text": n.text }));
     document["notes"] = notes.collect();
+    if let (Trace::Scans(trace), true) = (&witness.trace, by_line) {
+        // A trace that does not replay has no verdict, and so is not here.
+        let last = trace.scans.len().saturating_sub(1);
+        let told = story(checked.system, trace, last, MAX_INSTRUCTIONS).unwrap_or_default();
+        let lines = told.map(|scans| {
+            scans.iter().flat_map(|scan| &scan.instructions).map(|e| executed(checked, e)).collect::<Vec<_>>()
+        });
+        document["last_scan"] = lines.into();
+    }
     document
+}
+
+/// An instruction that was executed. `result` is the current result after it.
+fn executed(checked: &Checked<'_>, executed: &Executed) -> Value {
+    let writes = executed.writes.map(|(variable, pattern)| {
+        json!({
+            "variable": checked.name(variable),
+            "value": variable_value(checked.system, variable, pattern),
+            "changed": executed.changes,
+        })
+    });
+    json!({
+        "line": executed.line + 1,
+        "source_line": checked.source_line(executed.line),
+        "instruction": checked.instruction(executed.line),
+        "result": value(executed.ty, executed.result),
+        "writes": writes,
+        "hazard": executed.hazard.map(|hazard| hazard.to_string()),
+    })
+}
+
+fn variable_value(system: &System, variable: VarId, pattern: u64) -> Value {
+    value(system.program.variable(variable).ty, pattern)
 }
 
 /// A truth value, or a number; times count milliseconds.
@@ -130,7 +228,7 @@ fn value(ty: Type, pattern: u64) -> Value {
 fn scans(system: &System, trace: &ScanTrace) -> Value {
     let one = |(position, scan): (usize, &Scan)| {
         let name = |id: VarId| system.program.variable(id).name.clone();
-        let value = |id: VarId, pattern: u64| value(system.program.variable(id).ty, pattern);
+        let value = |id: VarId, pattern: u64| variable_value(system, id, pattern);
         let values = |role| -> Map<String, Value> {
             let end = scan
                 .end

@@ -3,22 +3,30 @@
 //! Readers take a text and give a [`Located`](crate::net::Located) net, or what it says of nets, or everything that is wrong
 //! with the text; writers give a text. What a safe place/transition net cannot express is refused, never left out in silence.
 
+mod checked;
 mod draft;
 mod escape;
 mod notes;
+mod stamp;
 
 pub mod andl;
 pub mod dot;
+pub mod html;
 pub mod ina;
 pub mod json;
+pub mod junit;
 pub mod lola;
 pub mod mcc;
 pub mod pnml;
+pub mod report_csv;
+pub mod sarif;
 pub mod tapaal;
 pub mod tina;
 
+pub use checked::{Checked, Purpose, runs};
 pub use escape::unescaped;
 pub use notes::{Note, Notes};
+pub use stamp::Stamp;
 
 /// What a writer writes, as a text.
 fn text(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {

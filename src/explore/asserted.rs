@@ -26,15 +26,18 @@ pub struct Seen {
 /// States whose scans are run together.
 const TOGETHER: usize = 64;
 
-/// Runs every scan of a graph, and asks `is_wrong` whenever control comes to one of the watched lines: with the position of the line
-/// in the list, the values of the variables before the scan, and the machine. For each watched line, the nearest scan in which the
+/// Whether something is wrong, for the position of a watched line in the list, the values of the variables before the scan, and those
+/// that they have now.
+type IsWrong<'a> = &'a (dyn Fn(usize, &dyn Fn(VarId) -> u64, &dyn Fn(VarId) -> u64) -> bool + Sync);
+
+/// Runs every scan of a graph, and asks `is_wrong` whenever control comes to one of the watched lines. For each watched line, the nearest scan in which the
 /// answer was yes; nothing at all if `stopping` is set meanwhile.
 #[must_use]
 pub fn first_at_lines(
     space: &ScanSpace<'_>,
     graph: &Graph,
     lines: &[usize],
-    is_wrong: &(dyn Fn(usize, &[u64], &Machine<'_>) -> bool + Sync),
+    is_wrong: IsWrong<'_>,
     stopping: &AtomicBool,
 ) -> Option<Vec<Option<Seen>>> {
     let mut found: Vec<Option<Seen>> = vec![None; lines.len()];
@@ -61,7 +64,7 @@ struct Runner<'a, 's> {
     graph: &'a Graph,
     /// What is watched at each line.
     at: &'a [Vec<usize>],
-    is_wrong: &'a (dyn Fn(usize, &[u64], &Machine<'_>) -> bool + Sync),
+    is_wrong: IsWrong<'a>,
 }
 
 impl Runner<'_, '_> {
@@ -89,7 +92,7 @@ impl Runner<'_, '_> {
         let (mut kept, mut steps, mut limit) = (machine.clone(), 0_usize, 64_usize);
         loop {
             for &watched in &self.at[machine.line()] {
-                if (self.is_wrong)(watched, before, machine) {
+                if (self.is_wrong)(watched, &|id| before[id.0], &|id| machine.value(id)) {
                     wrong(watched);
                 }
             }

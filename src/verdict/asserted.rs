@@ -6,8 +6,8 @@ use super::failing::what_is_missing;
 use super::views::ScanView;
 use super::{Answer, Note, Outcome, Trace, Witness};
 use crate::explore::{ScanRun, Seen, first_at_lines};
-use crate::interpret::Machine;
 use crate::logic::{Assertion, Bound, Moment};
+use crate::semantics::VarId;
 use crate::translate::PlaceRole;
 use crate::witness::{Disagreement, replay_lines, scan_trace_to};
 
@@ -17,9 +17,8 @@ pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopping: &AtomicB
     let watched: Vec<(&Assertion, usize)> =
         assertions.iter().flat_map(|assertion| assertion.lines.iter().map(move |&line| (assertion, line))).collect();
     let lines: Vec<usize> = watched.iter().map(|&(_, line)| line).collect();
-    let is_wrong = |position: usize, before: &[u64], machine: &Machine<'_>| {
-        let (before, now) = (|id: crate::semantics::VarId| before[id.0], |id| machine.value(id));
-        watched[position].0.formula.holds_in(&Moment { before: &before, now: &now }) != Some(true)
+    let is_wrong = |position: usize, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64| {
+        watched[position].0.formula.holds_in(&Moment { before, now }) != Some(true)
     };
     let found = first_at_lines(&view.space, &view.graph, &lines, &is_wrong, stopping);
     let outcome = |assertion: &Assertion| {

@@ -9,6 +9,7 @@ mod narrate;
 mod recalled;
 mod replay;
 mod scan_trace;
+mod story;
 mod table;
 mod writes;
 
@@ -17,5 +18,6 @@ pub use narrate::{firing_table, line_by_line, marked_scan_table, scan_table};
 pub use recalled::Recalled;
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_lines, replay_scans, scan_trace, scan_trace_to};
+pub use story::{Executed, ToldFiring, ToldScan, firing_story, story};
 pub use table::{Column, Table};
 pub use writes::{Write, last_writes};

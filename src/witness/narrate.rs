@@ -2,10 +2,10 @@
 
 use super::firing_trace::FiringTrace;
 use super::scan_trace::{Scan, ScanTrace};
+use super::story::story;
 use super::table::{Column, Table};
 use crate::flat::value_text;
-use crate::interpret::Machine;
-use crate::semantics::{Role, Type, VarId};
+use crate::semantics::{Role, VarId};
 use crate::source::Source;
 use crate::translate::{System, TransitionRole};
 
@@ -68,43 +68,28 @@ fn moves(system: &System, scan: &Scan) -> String {
 #[must_use]
 pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &Source) -> Table {
     let program = &system.program;
-    let mut machine = Machine::new(program);
-    for earlier in &trace.scans[..scan] {
-        earlier.inputs.iter().for_each(|&(input, value)| machine.set(input, value));
-        // The replay has seen these scans end.
-        let _ = machine.scan();
-    }
-    trace.scans[scan].inputs.iter().for_each(|&(input, value)| machine.set(input, value));
-    machine.begin_scan();
     let mut table = Table::new(vec![
         vec![Column::right("line"), Column::left("instruction")],
         vec![Column::right("CR"), Column::left("changes")],
         vec![Column::right("source"), Column::left("text")],
     ]);
-    let mut seen: Vec<Machine<'_>> = Vec::new();
-    let mut result = Type::BOOL;
-    while !machine.at_end() && !seen.iter().any(|earlier| earlier.same_state(&machine)) {
-        let line = machine.line();
-        let before = machine.clone();
-        let hazard = machine.step();
-        let code = &program.code[line];
-        result = code.instruction.gives().unwrap_or(result);
-        let change = (0..program.variables.len()).map(VarId).find(|&id| before.value(id) != machine.value(id));
+    // A trace that does not replay has no verdict, and is not told.
+    let told = story(system, trace, scan, usize::MAX).unwrap_or_default().unwrap_or_default();
+    for executed in told.iter().take(1).flat_map(|scan| &scan.instructions) {
+        let code = &program.code[executed.line];
+        let change = executed.writes.filter(|_| executed.changes);
         let change =
-            change.map(|id| format!("{} = {}", program.variable(id).name, program.value_text(id, machine.value(id))));
-        let changes: Vec<String> = change.into_iter().chain(hazard.map(|hazard| hazard.to_string())).collect();
+            change.map(|(id, value)| format!("{} = {}", program.variable(id).name, program.value_text(id, value)));
+        let changes: Vec<String> = change.into_iter().chain(executed.hazard.map(|hazard| hazard.to_string())).collect();
         let from = source.line_of(code.span.start);
         table.row(vec![
-            (line + 1).to_string(),
+            (executed.line + 1).to_string(),
             program.text(code.instruction),
-            value_text(result, machine.result()),
+            value_text(executed.ty, executed.result),
             changes.join(", "),
             from.to_string(),
             source.line_text(from).to_owned(),
         ]);
-        if trace.scans[scan].end.is_none() {
-            seen.push(before);
-        }
     }
     table
 }

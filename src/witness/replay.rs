@@ -181,6 +181,12 @@ impl<'s> Replay<'s> {
         self.system.value(variable, |place| self.marking.is_marked(place)).unwrap_or(0)
     }
 
+    /// The current result. It means as many bits as the instruction before gave it.
+    #[must_use]
+    pub fn result(&self) -> u64 {
+        self.machine.result()
+    }
+
     /// The hazards met since the scan began, each with its line (from 0), in the order of time.
     #[must_use]
     pub fn hazards(&self) -> &[(usize, Hazard)] {

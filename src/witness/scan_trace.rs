@@ -7,6 +7,7 @@ use super::replay::{Disagreement, Replay};
 use crate::explore::{Failure, ScanRun, ScanSpace, ScanState};
 use crate::flat::Hazard;
 use crate::logic::Bound;
+use crate::net::TransitionId;
 use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
 
@@ -140,44 +141,79 @@ pub fn replay_lines(
     mut at_line: impl FnMut(usize, &Replay<'_>, &Recalled),
     mut at_end: impl FnMut(usize, &Recalled) -> Result<(), Disagreement>,
 ) -> Result<(), Disagreement> {
+    let mut recalled = Recalled::new(Replay::new(system).memory());
+    play_scans(system, trace, &mut |event, replay| {
+        match event {
+            Event::AtLine(position) => at_line(position, replay, &recalled),
+            Event::AtEnd(position) => {
+                recalled.push(replay.memory());
+                at_end(position, &recalled)?;
+            }
+            _ => {}
+        }
+        Ok(())
+    })
+}
+
+/// What happens while a trace is replayed.
+pub enum Event {
+    /// The inputs have been copied; the program begins.
+    Begins,
+    /// Control has come to a line in the scan at this position.
+    AtLine(usize),
+    /// A transition has fired.
+    Fired(TransitionId),
+    /// The scan at this position has come to its end.
+    AtEnd(usize),
+    /// The scan is over: the plant may move, or the scan never ends.
+    Ended,
+}
+
+/// Who is told what happens.
+type Seen<'a> = &'a mut dyn FnMut(Event, &Replay<'_>) -> Result<(), Disagreement>;
+
+/// Replays a trace, and tells what happens.
+pub fn play_scans(system: &System, trace: &ScanTrace, seen: Seen<'_>) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
-    let mut recalled = Recalled::new(replay.memory());
     let end_place = PlaceRole::Line(system.program.end());
     for (position, scan) in trace.scans.iter().enumerate() {
         let in_scan = |Disagreement(what)| Disagreement(format!("in scan {}: {what}", position + 1));
         for &PlantMove { component, transition } in &scan.moves {
-            replay.fire_only(|role| role == TransitionRole::Plant { component, transition }).map_err(in_scan)?;
+            fire(&mut replay, seen, &|role| role == TransitionRole::Plant { component, transition })
+                .map_err(in_scan)?;
         }
-        replay.fire_only(|role| role == TransitionRole::Block).map_err(in_scan)?;
+        fire(&mut replay, seen, &|role| role == TransitionRole::Block).map_err(in_scan)?;
         for &(variable, pattern) in &scan.inputs {
             for bit in (0..system.program.variable(variable).bits).rev() {
                 let copy = TransitionRole::Copy { variable, bit, value: pattern >> bit & 1 == 1 };
-                replay.fire_only(|role| role == copy).map_err(in_scan)?;
+                fire(&mut replay, seen, &|role| role == copy).map_err(in_scan)?;
             }
         }
-        let mut seen = BTreeSet::new();
-        while !replay.is_at(end_place) && (replay.is_within_line() || seen.insert(replay.marking().clone())) {
+        seen(Event::Begins, &replay)?;
+        let mut met = BTreeSet::new();
+        while !replay.is_at(end_place) && (replay.is_within_line() || met.insert(replay.marking().clone())) {
             if !replay.is_within_line() {
-                at_line(position, &replay, &recalled);
+                seen(Event::AtLine(position), &replay)?;
             }
-            replay.fire_only(|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
+            fire(&mut replay, seen, &|role| matches!(role, TransitionRole::Line(_))).map_err(in_scan)?;
             if scan.end.is_none() && scan.hazard.is_some_and(|hazard| replay.hazards().contains(&hazard)) {
-                return Ok(());
+                return seen(Event::Ended, &replay);
             }
         }
         if scan.hazard.is_some_and(|hazard| !replay.hazards().contains(&hazard)) {
             return Err(in_scan(Disagreement("it does not meet this hazard".to_owned())));
         }
         let Some(end) = &scan.end else {
-            return if replay.is_at(end_place) { Err(in_scan(Disagreement("it ends".to_owned()))) } else { Ok(()) };
+            let ends = replay.is_at(end_place);
+            return if ends { Err(in_scan(Disagreement("it ends".to_owned()))) } else { seen(Event::Ended, &replay) };
         };
         if !replay.is_at(end_place) {
             return Err(in_scan(Disagreement("it never ends".to_owned())));
         }
         compare(system, &replay, end).map_err(in_scan)?;
-        recalled.push(replay.memory());
-        at_end(position, &recalled).map_err(in_scan)?;
-        replay.fire_only(|role| role == TransitionRole::Unblock).map_err(in_scan)?;
+        seen(Event::AtEnd(position), &replay).map_err(in_scan)?;
+        fire(&mut replay, seen, &|role| role == TransitionRole::Unblock).map_err(in_scan)?;
+        seen(Event::Ended, &replay)?;
     }
     // Both ends have been compared with the net, so they are the same if they say the same.
     let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
@@ -187,6 +223,12 @@ pub fn replay_lines(
         }
         _ => Ok(()),
     }
+}
+
+/// Fires the one enabled transition among those of these roles.
+fn fire(replay: &mut Replay<'_>, seen: Seen<'_>, of: &dyn Fn(TransitionRole) -> bool) -> Result<(), Disagreement> {
+    let transition = replay.fire_only(of)?;
+    seen(Event::Fired(transition), replay)
 }
 
 /// The search's end state against the net's.

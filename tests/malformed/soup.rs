@@ -3,7 +3,7 @@
 use petril::diagnostic::{Diagnostic, Style, any_error, render};
 use petril::exchange::{mcc, pnml, tina};
 use petril::flat::flatten;
-use petril::logic::{Nodes, View, bind, bind_in_net, bind_requirement, parse_requirements};
+use petril::logic::{Nodes, View, bind_in_net, bind_requirement, parse_requirements};
 use petril::source::Source;
 use petril::translate::{Plant, System};
 use petril::{semantics, syntax};

@@ -4,8 +4,10 @@
 
 pub mod agreement;
 pub mod assembler;
+pub mod browser;
 pub mod contest;
 pub mod document;
+pub mod forms;
 pub mod naive_ctl;
 pub mod naive_nets;
 pub mod naive_structure;

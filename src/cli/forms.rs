@@ -1,0 +1,88 @@
+//! The forms of a report that are written into files, several at once if several are asked for.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif};
+use petril::verdict::Trace;
+
+use super::{Failure, output, reason};
+
+/// Files that a check writes beside its report.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Forms {
+    /// Write the report as one page for a browser, which needs nothing else: requirements, runs to step through, diagrams.
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub html: Option<PathBuf>,
+    /// Write the report as JUnit XML, for continuous integration.
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub junit: Option<PathBuf>,
+    /// Write what is violated or unknown as SARIF 2.1.0, for code scanning and editors.
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub sarif: Option<PathBuf>,
+    /// Write a table (CSV) with one row for each requirement.
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub csv: Option<PathBuf>,
+    /// Write the inputs of each counterexample into this folder, as tables that `petril simulate --inputs` reads.
+    #[arg(long, value_name = "FOLDER", help_heading = "Files")]
+    pub trace_csv: Option<PathBuf>,
+}
+
+/// Writes what was asked for. Each file is whole, or is not there.
+pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(), Failure> {
+    let files = [&forms.html, &forms.junit, &forms.sarif, &forms.csv];
+    let mut names = BTreeSet::new();
+    if let Some(twice) = files.into_iter().flatten().find(|name| !names.insert(*name)) {
+        let message = format!("`{}` cannot be two things: give each form a file of its own", twice.display());
+        return Err(Failure::Message(message));
+    }
+    let stamp = stamp(started);
+    if let Some(file) = &forms.html {
+        output::write_text(file, &html::write(checked, stamp))?;
+    }
+    if let Some(file) = &forms.junit {
+        output::write_text(file, &junit::write(checked, stamp))?;
+    }
+    if let Some(file) = &forms.sarif {
+        output::write_text(file, &format!("{}\n", sarif::write(checked, stamp)))?;
+    }
+    if let Some(file) = &forms.csv {
+        output::write_text(file, &report_csv::write(checked))?;
+    }
+    if let Some(folder) = &forms.trace_csv {
+        each_counterexample(folder, "csv", checked, |trace| report_csv::inputs(checked.system, trace))?;
+    }
+    Ok(())
+}
+
+/// Writes a file for each counterexample, named after the requirement.
+fn each_counterexample(
+    folder: &Path,
+    ending: &str,
+    checked: &Checked<'_>,
+    content: impl Fn(&Trace) -> String,
+) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| {
+        Failure::Message(format!("cannot make the folder `{}`: {}", folder.display(), reason(&error)))
+    })?;
+    for answer in checked.answers() {
+        for (_, witness) in runs(answer).filter(|(purpose, _)| *purpose == Purpose::Counterexample) {
+            let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
+            let name: String = answer.name.chars().map(plain).collect();
+            output::write_text(&folder.join(format!("{name}.{ending}")), &content(&witness.trace))?;
+        }
+    }
+    Ok(())
+}
+
+/// The time now. A build that must not depend on it says another one in `SOURCE_DATE_EPOCH`, and then takes no time.
+fn stamp(started: Instant) -> Stamp {
+    let said = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    match said {
+        Some(seconds) => Stamp { seconds, took: 0.0 },
+        None => Stamp { seconds: now(), took: started.elapsed().as_secs_f64() },
+    }
+}

@@ -1,0 +1,126 @@
+//! JUnit XML, as continuous integration reads it: the program is a test suite, each requirement and each check a test case.
+//!
+//! What is violated is a failure, what is unknown an error: neither is to pass unseen. Documents are valid under both schemas
+//! in use, that of Apache Ant and that of Jenkins, which leaves tags no other place than properties of the suite.
+
+use std::io;
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesText, Event};
+
+use super::checked::{Checked, tags, why};
+use super::stamp::Stamp;
+use super::text;
+use crate::draw::printable;
+use crate::verdict::{Answer, Outcome, Verdict};
+
+type Xml<'o> = Writer<&'o mut Vec<u8>>;
+
+/// Writes a report as one test suite.
+#[must_use]
+pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
+    text(|out| suites(checked, stamp, out))
+}
+
+fn suites(checked: &Checked<'_>, stamp: Stamp, out: &mut Vec<u8>) -> io::Result<()> {
+    let count = |verdict| checked.answers().filter(|a| a.outcome.verdict() == verdict).count().to_string();
+    let (name, time) = (printable(&checked.system.program.name), format!("{:.3}", stamp.took.max(0.0)));
+    let attributes = [
+        ("name", name.as_str()),
+        ("package", "petril"),
+        ("id", "0"),
+        ("tests", &checked.answers().count().to_string()),
+        ("failures", &count(Verdict::Violated)),
+        ("errors", &count(Verdict::Unknown)),
+        ("time", &time),
+        ("timestamp", &stamp.to_string()),
+        ("hostname", "localhost"),
+    ];
+    let mut xml = Writer::new_with_indent(out, b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    xml.create_element("testsuites").write_inner_content(|xml| {
+        xml.create_element("testsuite").with_attributes(attributes).write_inner_content(|xml| {
+            xml.create_element("properties").write_inner_content(|xml| properties(xml, checked))?;
+            for answer in checked.answers() {
+                case(xml, checked, answer)?;
+            }
+            let remarks = BytesText::new(&lines(&output(checked))).into_owned();
+            xml.create_element("system-out").write_text_content(remarks)?;
+            xml.create_element("system-err").write_text_content(BytesText::new(""))?;
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    xml.get_mut().push(b'\n');
+    Ok(())
+}
+
+fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
+    let mut property = |name: &str, value: &str| {
+        let attributes = [("name", printable(name)), ("value", printable(value))];
+        let attributes = attributes.iter().map(|(name, value)| (*name, value.as_str()));
+        xml.create_element("property").with_attributes(attributes).write_empty().map(drop)
+    };
+    property("petril", env!("CARGO_PKG_VERSION"))?;
+    property("file", checked.source.name())?;
+    property("verdict", checked.report.verdict().word())?;
+    for assumption in &checked.report.assumptions {
+        property("assumed", assumption)?;
+    }
+    for answer in checked.answers() {
+        for tag in &answer.tags {
+            property(&format!("{}.{}", answer.name, tag.name), tag.value.as_deref().unwrap_or("true"))?;
+        }
+    }
+    Ok(())
+}
+
+fn case(xml: &mut Xml<'_>, checked: &Checked<'_>, answer: &Answer) -> io::Result<()> {
+    let (name, class) = (printable(&answer.name), printable(&checked.system.program.name));
+    let attributes = [("name", name.as_str()), ("classname", &class), ("time", "0")];
+    let element = xml.create_element("testcase").with_attributes(attributes);
+    let (kind, body) = match &answer.outcome {
+        Outcome::Holds { .. } => return element.write_empty().map(drop),
+        Outcome::Unknown(_) => ("error", head(answer)),
+        Outcome::Violated(witness, _) => {
+            let mut body = head(answer) + "\n" + &checked.told(witness);
+            let why = why(answer).map(|why| checked.explained(why)).unwrap_or_default();
+            body.extend(why.into_iter().map(|sentence| sentence + "\n"));
+            ("failure", body)
+        }
+    };
+    let reason = printable(&checked.reason(answer).unwrap_or_default());
+    element
+        .write_inner_content(|xml| {
+            let attributes = [("type", answer.outcome.verdict().word()), ("message", reason.as_str())];
+            let body = BytesText::new(&lines(&body)).into_owned();
+            xml.create_element(kind).with_attributes(attributes).write_text_content(body).map(drop)
+        })
+        .map(drop)
+}
+
+/// What was asked, in all words there are for it.
+fn head(answer: &Answer) -> String {
+    let mut head = String::new();
+    let said = [answer.sentence.as_ref(), answer.words.as_ref(), Some(&answer.formula)];
+    head.extend(said.into_iter().flatten().map(|text| format!("{text}\n")));
+    let tags = tags(answer).collect::<Vec<_>>().join(", ");
+    if !tags.is_empty() {
+        head += &format!("[{tags}]\n");
+    }
+    if let Some(origin) = &answer.origin {
+        head += &format!("{}:{}:{}\n", origin.file, origin.line, origin.column);
+    }
+    head
+}
+
+/// What holds and yet is worth a word.
+fn output(checked: &Checked<'_>) -> String {
+    let holds = checked.answers().filter(|answer| answer.outcome.verdict() == Verdict::Holds);
+    holds.filter_map(|answer| Some(format!("{}: {}\n", answer.name, checked.reason(answer)?))).collect()
+}
+
+/// A text of several lines without what XML cannot hold.
+fn lines(text: &str) -> String {
+    text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
+}
