@@ -184,7 +184,11 @@ impl Teller<'_> {
                 match literal {
                     Literal::Now(variable) => self.told.literals.push((at, variable)),
                     Literal::Before(variable) if at > 0 => self.told.literals.push((at - 1, variable)),
-                    Literal::Before(_) | Literal::Past(_) => {}
+                    Literal::Before(_) => {}
+                    Literal::Past(formula) => {
+                        let variables = formula.mentions().variables;
+                        self.told.literals.extend(variables.into_iter().map(|variable| (at, variable)));
+                    }
                 }
             }
         }
