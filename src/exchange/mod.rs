@@ -16,6 +16,7 @@ pub mod mcc;
 pub mod pnml;
 pub mod tapaal;
 pub mod tina;
+pub mod vcd;
 
 pub use escape::unescaped;
 pub use notes::{Note, Notes};

@@ -1,0 +1,16 @@
+//! Runs that somebody steers, or chance: scan by scan, or within a scan line by line and firing by firing, back as well as
+//! forward.
+//!
+//! Whole scans are executed by the interpreter. Whoever goes into a scan gets the token game and the interpreter side by
+//! side, as [`crate::witness::Replay`] runs them.
+
+mod breakpoint;
+mod chance;
+mod plan;
+mod session;
+mod within;
+
+pub use breakpoint::Breakpoint;
+pub use chance::Chance;
+pub use plan::{Impossible, Plan, scan};
+pub use session::{Session, Stopped};
