@@ -19,6 +19,8 @@ pub struct Console {
     errors_in_colour: bool,
     output_in_colour: bool,
     width: usize,
+    /// Columns of what results are printed to, if it has any.
+    output_width: Option<usize>,
     /// The diagnostics printed so far, for those who want JSON.
     printed: RefCell<Vec<Value>>,
 }
@@ -30,11 +32,14 @@ impl Console {
             When::Never => false,
             When::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
         };
-        let width = console_width().unwrap_or(120);
+        let asked = console_width();
+        // Asked for the terminal's size, not for that of whatever else is there.
+        let terminal = || io::stdout().is_terminal().then(ratatui::crossterm::terminal::size)?.ok();
         Self {
             errors_in_colour: wanted(io::stderr().is_terminal()),
             output_in_colour: wanted(io::stdout().is_terminal()),
-            width,
+            width: asked.unwrap_or(120),
+            output_width: asked.or_else(|| terminal().map(|(columns, _)| columns.into())),
             printed: RefCell::default(),
         }
     }
@@ -72,6 +77,11 @@ impl Console {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),
             Err(error) => Err(Failure::Message(format!("cannot print: {}", reason(&error)))),
         }
+    }
+
+    /// Columns of what results are printed to; `None` if lines of any length are good.
+    pub fn output_width(&self) -> Option<usize> {
+        self.output_width
     }
 
     /// Prints a result as a JSON document, with the diagnostics printed so far.

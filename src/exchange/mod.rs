@@ -14,6 +14,7 @@ pub mod json;
 pub mod lola;
 pub mod mcc;
 pub mod pnml;
+pub mod recorded;
 pub mod tapaal;
 pub mod tina;
 pub mod vcd;

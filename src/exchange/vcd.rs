@@ -18,10 +18,8 @@ pub fn write(system: &System, trace: &ScanTrace, title: &str) -> String {
     let program = &system.program;
     let mut remarks = vec![title.to_owned()];
     for (position, scan) in trace.scans.iter().enumerate() {
-        let names =
-            scan.moves.iter().map(|m| system.plant.components[m.component].transitions[m.transition].name.as_str());
-        let names: Vec<&str> = names.collect();
-        remarks.extend((!names.is_empty()).then(|| format!("before scan {}: {}", position + 1, names.join(", "))));
+        let done = scan.done(system);
+        remarks.extend((!done.is_empty()).then(|| format!("before scan {}: {done}", position + 1)));
     }
     if let Some(start) = trace.loop_start {
         let (last, first) = (trace.scans.len(), start + 1);

@@ -104,9 +104,10 @@ fn nth(domain: &Domain, mut position: u128) -> i128 {
     domain.ranges()[0].0
 }
 
-/// The constants of a program and the numbers beside them, and those beside 0.
+/// The constants and initial values of a program and the numbers beside them, and those beside 0.
 fn constants(system: &System) -> Vec<i128> {
-    let mut numbers = vec![0];
+    let initial = system.program.variables.iter().map(|variable| variable.ty.number(variable.initial));
+    let mut numbers: Vec<i128> = initial.chain([0]).collect();
     for line in &system.program.code {
         match line.instruction {
             Instruction::Load { ty, operand: Operand::Constant(pattern), .. }

@@ -60,11 +60,10 @@ pub fn scan(
 /// The plant's markings after some moves from a state.
 pub(super) fn moved(system: &System, from: &ScanState, moves: &[PlantMove]) -> Result<Vec<usize>, Impossible> {
     let mut plant = from.plant.clone();
-    for &PlantMove { component, transition } in moves {
-        let found = enabled(system, from, &plant, component).find(|(other, _)| other.transition == transition);
-        let (_, target) =
-            found.ok_or_else(|| Impossible(system.plant.components[component].transitions[transition].name.clone()))?;
-        plant[component] = target;
+    for &chosen in moves {
+        let found = enabled(system, from, &plant, chosen.component).find(|&(other, _)| other == chosen);
+        let (_, target) = found.ok_or_else(|| Impossible(chosen.name(system).to_owned()))?;
+        plant[chosen.component] = target;
     }
     Ok(plant)
 }

@@ -8,6 +8,7 @@ use super::plan::{self, Impossible, Plan};
 use super::within::Within;
 use crate::explore::{Failure, ScanState};
 use crate::flat::Tolerated;
+use crate::net::TransitionId;
 use crate::semantics::{Role, Type, VarId};
 use crate::translate::{PlaceRole, System};
 use crate::witness::{Disagreement, PlantMove, Replay, Scan};
@@ -153,6 +154,16 @@ impl<'s> Session<'s> {
     #[must_use]
     pub fn replay(&self) -> Replay<'s> {
         self.within.as_ref().map_or_else(|| Replay::after(self.system, self.state()), |within| within.replay.clone())
+    }
+
+    /// The transition that fires next, if the run can go on.
+    #[must_use]
+    pub fn next(&self) -> Option<TransitionId> {
+        self.go_on().ok()?;
+        match &self.within {
+            Some(within) => within.next().ok(),
+            None => Within::new(self.system, self.state(), &self.plan()).ok()?.next().ok(),
+        }
     }
 
     /// What is to be done before the next scan, or was done before the one that is under way.

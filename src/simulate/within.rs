@@ -3,6 +3,7 @@
 use super::plan::{self, Impossible, Plan};
 use crate::explore::ScanState;
 use crate::flat::{Hazard, Tolerated};
+use crate::net::TransitionId;
 use crate::semantics::VarId;
 use crate::translate::{PlaceRole, System, TransitionRole};
 use crate::witness::{Disagreement, PlantMove, Replay, Scan};
@@ -40,14 +41,23 @@ impl<'s> Within<'s> {
 
     /// Fires the next transition; says whether it has ended the scan.
     pub fn fire(&mut self) -> Result<bool, Disagreement> {
+        self.fire_next().map(|(_, ends)| ends)
+    }
+
+    /// The transition that fires next.
+    pub fn next(&self) -> Result<TransitionId, Disagreement> {
+        self.clone().fire_next().map(|(transition, _)| transition)
+    }
+
+    fn fire_next(&mut self) -> Result<(TransitionId, bool), Disagreement> {
         let ends = self.replay.control() == PlaceRole::Line(self.end);
-        match self.prelude.get(self.fired) {
+        let fired = match self.prelude.get(self.fired) {
             Some(&next) => self.replay.fire_only(|role| role == next)?,
             None if ends => self.replay.fire_only(|role| role == TransitionRole::Unblock)?,
             None => self.replay.fire_only(|role| matches!(role, TransitionRole::Line(_)))?,
         };
         self.fired += 1;
-        Ok(ends)
+        Ok((fired, ends))
     }
 
     /// Whether a line is to be executed next, none is under way, or all have been.

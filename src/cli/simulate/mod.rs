@@ -1,0 +1,114 @@
+//! `petril simulate`: a program scan by scan.
+
+mod scans;
+mod show;
+mod steering;
+
+use std::ffi::OsStr;
+use std::process::ExitCode;
+
+use petril::simulate::Breakpoint;
+use petril::source::Source;
+use petril::translate::System;
+use petril::witness::line_by_line;
+
+use super::args::{Format, Simulate};
+use super::console::Console;
+use super::input::Program;
+use super::{Failure, Outcome, SUCCESS, input, output};
+use scans::{Run, scans};
+use steering::Steering;
+
+/// Scans simulated if nothing says how many.
+const DEFAULT_SCANS: usize = 10;
+
+/// Scans simulated until a condition is met, if nothing says how many.
+const UNTIL_SCANS: usize = 1000;
+
+pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
+    if !arguments.plant.is_empty() && arguments.random.is_none() && arguments.replay.is_none() && !arguments.interactive
+    {
+        let message = "nothing says what the plant does: give --random, --replay or --interactive";
+        return Err(Failure::Message(message.to_owned()));
+    }
+    let format = format(arguments)?;
+    let (Program { flat, source }, plant) =
+        input::parts(&arguments.program, &arguments.plant, &arguments.meaning.reading, console)?;
+    let domains = steering::domains(&arguments.domain, &flat, &plant, console)?;
+    let system = System::with_domains(flat, plant, domains);
+    let until = arguments.until.as_ref().map(|text| condition(text, &system, console)).transpose()?;
+    let mut steering = Steering::of(arguments, &system, console)?;
+    let default = steering.len().unwrap_or(if until.is_some() { UNTIL_SCANS } else { DEFAULT_SCANS });
+    let count = arguments.scans.unwrap_or(default);
+    let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
+        .map_err(Failure::Message)?;
+    print(arguments, format, &system, &source, &made, console)?;
+    Ok(tell(arguments, &system, &source, &made, console))
+}
+
+/// The form that is asked for, or that the name of the file has.
+fn format(arguments: &Simulate) -> Result<Format, Failure> {
+    let ending = arguments.output.as_ref().and_then(|path| path.extension()).and_then(OsStr::to_str);
+    let format = arguments.format.unwrap_or(match ending {
+        Some("csv") => Format::Csv,
+        Some("vcd") => Format::Vcd,
+        _ => Format::Table,
+    });
+    if arguments.by_line.is_some() && format != Format::Table {
+        return Err(Failure::Message("--by-line is for tables; leave out the format, or --by-line".to_owned()));
+    }
+    Ok(format)
+}
+
+fn condition(text: &str, system: &System, console: &Console) -> Result<Breakpoint, Failure> {
+    let source = Source::new("condition", text);
+    Breakpoint::at_end(&source, system).map_err(|diagnostics| {
+        console.diagnostics(&diagnostics, &source);
+        Failure::Reported
+    })
+}
+
+/// The scans, and one of them line by line.
+fn print(
+    arguments: &Simulate,
+    format: Format,
+    system: &System,
+    source: &Source,
+    run: &Run,
+    console: &Console,
+) -> Result<(), Failure> {
+    let trace = &run.trace;
+    let title = format!("{} from {}, {} scans", system.program.name, source.name(), trace.scans.len());
+    // A file has no width.
+    let width = console.output_width().filter(|_| arguments.output.is_none());
+    let mut text = show::text(system, trace, format, &title, width);
+    if let Some(scan) = arguments.by_line {
+        let Some(position) = scan.checked_sub(1).filter(|&position| position < trace.scans.len()) else {
+            return Err(Failure::Message(format!("there is no scan {scan}: the scans are 1 to {}", trace.scans.len())));
+        };
+        let lines = line_by_line(system, trace, position, source);
+        text += &format!("\nscan {scan} line by line:\n\n{lines}");
+    }
+    match &arguments.output {
+        Some(path) => output::write_text(path, &text),
+        None => console.print(&text).map(drop),
+    }
+}
+
+/// Says how the run ended, and gives the exit code that goes with it.
+fn tell(arguments: &Simulate, system: &System, source: &Source, run: &Run, console: &Console) -> ExitCode {
+    let scans = run.trace.scans.len();
+    match (&arguments.until, run.failure) {
+        (Some(condition), _) if run.is_met => console.message(&format!("after scan {scans}: `{condition}` is true\n")),
+        (_, Some(failure)) => {
+            console.error(&show::explain(failure, scans, &system.program, source));
+            return ExitCode::from(1);
+        }
+        (Some(condition), None) => {
+            console.message(&format!("`{condition}` is true after none of the {scans} scans\n"));
+            return ExitCode::from(1);
+        }
+        (None, None) => {}
+    }
+    SUCCESS
+}
