@@ -79,6 +79,11 @@ impl Console {
         }
     }
 
+    /// Whether results may have colours.
+    pub fn output_in_colour(&self) -> bool {
+        self.output_in_colour
+    }
+
     /// Columns of what results are printed to; `None` if lines of any length are good.
     pub fn output_width(&self) -> Option<usize> {
         self.output_width

@@ -11,6 +11,7 @@ mod flat;
 mod format;
 mod input;
 mod input_table;
+mod interactive;
 mod meaning;
 mod net_check;
 mod net_convert;

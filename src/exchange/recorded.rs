@@ -6,6 +6,7 @@ use crate::flat::FlatProgram;
 use crate::semantics::{Role, VarId};
 use crate::simulate::Plan;
 use crate::translate::System;
+use crate::verdict::Note;
 use crate::witness::{PlantMove, Scan};
 
 /// A run of the scan view, as a report has it.
@@ -17,6 +18,8 @@ pub struct Recorded {
     pub plans: Vec<Plan>,
     /// For a lasso, the position of the scan whose end the last scan repeats.
     pub loop_start: Option<usize>,
+    /// What it shows, where.
+    pub notes: Vec<Note>,
     scans: Vec<Expected>,
 }
 
@@ -70,6 +73,7 @@ pub fn recorded(report: &Value, requirement: Option<&str>, system: &System) -> R
         requirement: name,
         plans: Vec::new(),
         loop_start: trace["loop_start"].as_u64().map(|start| start.saturating_sub(1) as usize),
+        notes: trace["notes"].as_array().into_iter().flatten().filter_map(note).collect(),
         scans: Vec::new(),
     };
     for (position, scan) in scans.iter().enumerate() {
@@ -121,6 +125,12 @@ impl Recorded {
         let text = |pattern| program.value_text(id, pattern);
         differs(format!("`{}` becomes {}, and {} in the report", program.variable(id).name, text(made), text(recorded)))
     }
+}
+
+/// A note; scans count from 1 in reports.
+fn note(note: &Value) -> Option<Note> {
+    let scan = |key: &str| Some(usize::try_from(note[key].as_u64()?).ok()?.saturating_sub(1));
+    Some(Note { first: scan("first")?, last: scan("last")?, text: note["text"].as_str()?.to_owned() })
 }
 
 fn read(scan: &Value, system: &System) -> Result<(Plan, Expected), String> {

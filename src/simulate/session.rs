@@ -26,6 +26,8 @@ pub struct Session<'s> {
     scans: Vec<Scan>,
     /// What was done before each scan, and what is to be done before the next ones.
     plans: Vec<Plan>,
+    /// The first scan for which another plan was made than it began with.
+    altered: usize,
     /// The scan that is under way.
     within: Option<Within<'s>>,
     /// What went wrong in the last scan.
@@ -74,7 +76,7 @@ impl<'s> Session<'s> {
     #[must_use]
     pub fn new(system: &'s System, tolerated: Tolerated, plans: Vec<Plan>) -> Self {
         let power_on = ScanState::power_on(system);
-        Self { system, tolerated, power_on, scans: Vec::new(), plans, within: None, failure: None }
+        Self { system, tolerated, power_on, scans: Vec::new(), plans, altered: usize::MAX, within: None, failure: None }
     }
 
     /// The system.
@@ -93,6 +95,12 @@ impl<'s> Session<'s> {
     #[must_use]
     pub fn planned(&self) -> usize {
         self.plans.len().max(self.scans.len())
+    }
+
+    /// Whether the scans that have ended are those that were planned when the session began.
+    #[must_use]
+    pub fn is_as_planned(&self) -> bool {
+        self.scans.len() <= self.altered
     }
 
     /// The state at the end of the last scan.
@@ -194,6 +202,7 @@ impl<'s> Session<'s> {
 
     /// Writes down another plan for the next scan; what was planned behind it is dropped.
     fn change(&mut self, plan: Plan) {
+        self.altered = self.altered.min(self.scans.len());
         self.plans.resize(self.scans.len(), Plan::default());
         self.plans.push(plan);
     }

@@ -7,7 +7,7 @@ mod steering;
 use std::ffi::OsStr;
 use std::process::ExitCode;
 
-use petril::simulate::Breakpoint;
+use petril::simulate::{Breakpoint, Session};
 use petril::source::Source;
 use petril::translate::System;
 use petril::witness::line_by_line;
@@ -15,7 +15,8 @@ use petril::witness::line_by_line;
 use super::args::{Format, Simulate};
 use super::console::Console;
 use super::input::Program;
-use super::{Failure, Outcome, SUCCESS, input, output};
+use super::interactive::Screen;
+use super::{Failure, Outcome, SUCCESS, input, interactive, output};
 use scans::{Run, scans};
 use steering::Steering;
 
@@ -38,12 +39,37 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let system = System::with_domains(flat, plant, domains);
     let until = arguments.until.as_ref().map(|text| condition(text, &system, console)).transpose()?;
     let mut steering = Steering::of(arguments, &system, console)?;
+    if arguments.interactive {
+        return interact(arguments, &system, &source, steering, console);
+    }
     let default = steering.len().unwrap_or(if until.is_some() { UNTIL_SCANS } else { DEFAULT_SCANS });
     let count = arguments.scans.unwrap_or(default);
     let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
         .map_err(Failure::Message)?;
     print(arguments, format, &system, &source, &made, console)?;
     Ok(tell(arguments, &system, &source, &made, console))
+}
+
+/// Shows the run in the terminal. One from a report must be as it was recorded, as always.
+fn interact(
+    arguments: &Simulate,
+    system: &System,
+    source: &Source,
+    mut steering: Steering<'_>,
+    console: &Console,
+) -> Outcome {
+    let tolerated = arguments.meaning.tolerated();
+    let plans = steering.plans();
+    if arguments.replay.is_some() {
+        scans(system, tolerated, &mut steering, plans.len(), None).map_err(Failure::Message)?;
+    }
+    let notes = steering.recorded().map_or_else(Vec::new, |recorded| recorded.notes.clone());
+    let seed = arguments.random.flatten().unwrap_or_else(steering::any_seed);
+    let mut screen = Screen::new(Session::new(system, tolerated, plans), source, notes, seed);
+    if let Some(recorded) = steering.recorded() {
+        screen.say(format!("the run of `{}`: s goes through it, and ? says what other keys do", recorded.requirement));
+    }
+    interactive::run(screen, console)
 }
 
 /// The form that is asked for, or that the name of the file has.

@@ -43,7 +43,8 @@ impl<'s> Steering<'s> {
             let report: Value = serde_json::from_str(source.text()).map_err(|error| say(error.to_string()))?;
             return Ok(Self::Recorded(recorded(&report, arguments.requirement.as_deref(), system).map_err(say)?));
         }
-        if let Some(seed) = arguments.random {
+        // Who steps through the run steers, and draws lots by key.
+        if let Some(seed) = arguments.random.filter(|_| !arguments.interactive) {
             let seed = seed.unwrap_or_else(|| {
                 let seed = any_seed();
                 console.message(&format!("the seed is {seed}: `--random {seed}` makes this run again\n"));
@@ -69,6 +70,14 @@ impl<'s> Steering<'s> {
             Self::Rows(rows) => rows.get(position).cloned().unwrap_or_default(),
             Self::Chance(chance) => chance.plan(from),
             Self::Recorded(recorded) => recorded.plan(position),
+        }
+    }
+
+    /// The run of a report, if it is one.
+    pub fn recorded(&self) -> Option<&Recorded> {
+        match self {
+            Self::Recorded(recorded) => Some(recorded),
+            _ => None,
         }
     }
 
