@@ -240,3 +240,22 @@ fn chance_is_the_same_for_the_same_seed_and_comes_to_the_interesting_values() {
     // A seed means the same run for ever: these are written down.
     assert_eq!((0..8).map(level).collect::<Vec<_>>(), [0, 0, 0, 0, -12581, -12581, -12581, 20001]);
 }
+
+/// Nobody fills this tank by uniform chance: from every level, what takes water is as likely as what brings it, and it leaks.
+#[test]
+fn a_plant_comes_everywhere_by_chance() {
+    let mut net = "net tank\npl {k=0} (1)\n".to_owned();
+    for level in 1..=20 {
+        net += &format!("tr up{level} {{k={}}} {{q=0}}?1 -> {{k={level}}}\n", level - 1);
+        net += &format!("tr down{level} {{k={level}}} -> {{k={}}}\n", level - 1);
+        net += &format!("tr leak{level} {{k={level}}} -> {{k=0}}\n");
+    }
+    let text = "PROGRAM p VAR_INPUT k : SINT; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD k\nGT 18\nST q\nEND_PROGRAM";
+    let system = system(text, &[&net]);
+    let trace = by_chance(&system, 5, 400);
+    assert_eq!(replay_scans(&system, &trace, |_, _| Ok(())), Ok(()));
+    let levels: std::collections::BTreeSet<u64> = trace.scans.iter().map(|scan| scan.inputs[0].1).collect();
+    assert_eq!(levels, (0..=20).collect(), "each level at some time");
+    let quiet = trace.scans.iter().filter(|scan| scan.moves.is_empty()).count();
+    assert!((50..350).contains(&quiet), "at times nothing happens: {quiet}");
+}

@@ -19,7 +19,7 @@ pub struct Console {
     errors_in_colour: bool,
     output_in_colour: bool,
     width: usize,
-    /// Columns of what results are printed to, if it has any.
+    /// Columns that results should keep to: those of the terminal they go to, or that are asked for.
     output_width: Option<usize>,
     /// The diagnostics printed so far, for those who want JSON.
     printed: RefCell<Vec<Value>>,
@@ -32,14 +32,12 @@ impl Console {
             When::Never => false,
             When::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
         };
-        let asked = console_width();
-        // Asked for the terminal's size, not for that of whatever else is there.
-        let terminal = || io::stdout().is_terminal().then(ratatui::crossterm::terminal::size)?.ok();
+        let width = console_width().unwrap_or(120);
         Self {
             errors_in_colour: wanted(io::stderr().is_terminal()),
             output_in_colour: wanted(io::stdout().is_terminal()),
-            width: asked.unwrap_or(120),
-            output_width: asked.or_else(|| terminal().map(|(columns, _)| columns.into())),
+            width,
+            output_width: console_width().or_else(terminal_width),
             printed: RefCell::default(),
         }
     }
@@ -79,20 +77,15 @@ impl Console {
         }
     }
 
-    /// Whether results may have colours.
-    pub fn output_in_colour(&self) -> bool {
-        self.output_in_colour
-    }
-
-    /// Columns of what results are printed to; `None` if lines of any length are good.
-    pub fn output_width(&self) -> Option<usize> {
-        self.output_width
-    }
-
     /// Prints a result as a JSON document, with the diagnostics printed so far.
     pub fn print_json(&self, mut document: Value) -> Outcome {
         document["diagnostics"] = Value::Array(self.printed.take());
         self.print(&format!("{document:#}\n"))
+    }
+
+    /// How wide a result may be; a pipe takes any width.
+    pub fn output_width(&self) -> usize {
+        self.output_width.unwrap_or(usize::MAX)
     }
 
     /// A word of a result in the colour of its meaning.
@@ -103,6 +96,11 @@ impl Console {
             Colour::Doubtful => "33",
         };
         if self.output_in_colour { format!("\u{1b}[1;{code}m{word}\u{1b}[0m") } else { word.to_owned() }
+    }
+
+    /// Whether results may have colours.
+    pub fn output_in_colour(&self) -> bool {
+        self.output_in_colour
     }
 }
 
@@ -117,4 +115,10 @@ pub enum Colour {
 /// Columns of the terminal, if it says.
 fn console_width() -> Option<usize> {
     std::env::var("COLUMNS").ok()?.parse().ok().filter(|&width| width >= 40)
+}
+
+/// Columns of the terminal that results go to, if they go to one.
+fn terminal_width() -> Option<usize> {
+    let (terminal_size::Width(columns), _) = terminal_size::terminal_size_of(io::stdout())?;
+    Some(usize::from(columns)).filter(|&width| width >= 40)
 }

@@ -1,28 +1,26 @@
-//! Inputs and moves of the plant by chance. The same seed gives the same run, on every machine.
+//! Inputs and moves of the plant by chance. The same seed gives the same run.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-
-use super::plan::{Plan, enabled};
+use super::lots::Lots;
+use super::plan::Plan;
+use super::walk::Walk;
 use crate::explore::ScanState;
 use crate::flat::{Instruction, Operand};
 use crate::semantics::VarId;
 use crate::translate::{Domain, System};
 
 /// A free input changes before one scan in so many: what needs several scans, like a timer, should come about.
-const CHANGES: u64 = 3;
+const CHANGES: u128 = 3;
 
 /// One number in so many is any of the domain; the others lie where the program may tell numbers apart.
-const ANY: u64 = 4;
-
-/// A component moves at most so often before a scan.
-const MOVES: usize = 8;
+const ANY: u128 = 4;
 
 /// Makes plans by chance.
 #[derive(Clone, Debug)]
 pub struct Chance<'s> {
     system: &'s System,
-    generator: ChaCha8Rng,
+    lots: Lots,
+    /// One for each component of the plant.
+    walks: Vec<Walk>,
     inputs: Vec<FreeInput>,
 }
 
@@ -49,46 +47,29 @@ impl<'s> Chance<'s> {
             interesting.dedup();
             FreeInput { variable, domain, interesting }
         });
-        Self { system, generator: ChaCha8Rng::seed_from_u64(seed), inputs: inputs.collect() }
+        let walks = vec![Walk::default(); system.plant.components.len()];
+        Self { system, lots: Lots::new(seed), walks, inputs: inputs.collect() }
     }
 
-    /// What is done before the next scan from a state. Each component takes a random walk; some free inputs change.
+    /// What is done before the next scan from a state: the plant walks, some free inputs change.
     pub fn plan(&mut self, from: &ScanState) -> Plan {
         let mut plan = Plan::default();
-        let mut plant = from.plant.clone();
-        for component in 0..plant.len() {
-            for _ in 0..MOVES {
-                let moves: Vec<_> = enabled(self.system, from, &plant, component).collect();
-                if moves.is_empty() || self.below(2) == 0 {
-                    break;
-                }
-                let (chosen, target) = moves[self.below(moves.len() as u128) as usize];
-                plan.moves.push(chosen);
-                plant[component] = target;
-            }
+        for (component, walk) in self.walks.iter_mut().enumerate() {
+            plan.moves.extend(walk.go(self.system, component, from, &mut self.lots));
         }
-        for position in 0..self.inputs.len() {
-            if self.below(u128::from(CHANGES)) == 0 {
-                let value = self.value(position);
-                plan.inputs.push((self.inputs[position].variable, value));
+        for input in &self.inputs {
+            if self.lots.below(CHANGES) == 0 {
+                plan.inputs.push((input.variable, input.value(&mut self.lots)));
             }
         }
         plan
     }
+}
 
-    /// A value of a free input.
-    fn value(&mut self, position: usize) -> u64 {
-        let (size, known) = (self.inputs[position].domain.size(), self.inputs[position].interesting.len());
-        let takes_any = self.below(u128::from(ANY)) == 0;
-        let choice = self.below(if takes_any { size } else { known as u128 });
-        let input = &self.inputs[position];
-        let number = if takes_any { nth(&input.domain, choice) } else { input.interesting[choice as usize] };
-        input.domain.ty.pattern(number)
-    }
-
-    /// A number below another, which is at most 2⁶⁴.
-    fn below(&mut self, limit: u128) -> u128 {
-        u128::from(self.generator.next_u64()) * limit >> 64
+impl FreeInput {
+    fn value(&self, lots: &mut Lots) -> u64 {
+        let known = if lots.below(ANY) == 0 { None } else { lots.one_of(&self.interesting).copied() };
+        self.domain.ty.pattern(known.unwrap_or_else(|| nth(&self.domain, lots.below(self.domain.size()))))
     }
 }
 

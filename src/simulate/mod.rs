@@ -6,8 +6,10 @@
 
 mod breakpoint;
 mod chance;
+mod lots;
 mod plan;
 mod session;
+mod walk;
 mod within;
 
 pub use breakpoint::Breakpoint;

@@ -139,7 +139,7 @@ impl<'s> Session<'s> {
     /// The current result, within a program.
     #[must_use]
     pub fn result(&self) -> Option<(Type, u64)> {
-        self.line().and(self.within.as_ref()).map(|within| within.replay.result())
+        self.line().and(self.within.as_ref()).map(|within| within.replay.typed_result())
     }
 
     /// The value a variable has now.
@@ -166,7 +166,7 @@ impl<'s> Session<'s> {
 
     /// The transition that fires next, if the run can go on.
     #[must_use]
-    pub fn next(&self) -> Option<TransitionId> {
+    pub fn next_transition(&self) -> Option<TransitionId> {
         self.go_on().ok()?;
         match &self.within {
             Some(within) => within.next().ok(),
@@ -330,7 +330,7 @@ impl<'s> Session<'s> {
     pub fn step_line(&mut self) -> Result<(), Stopped> {
         loop {
             self.step_transition()?;
-            if !self.within.as_ref().is_some_and(|within| !within.is_at_line()) {
+            if self.within.as_ref().is_none_or(Within::is_at_line) {
                 return Ok(());
             }
         }

@@ -81,7 +81,7 @@ impl<'s> Replay<'s> {
 
     /// The current result as the interpreter has it, with the type that the last instruction gave it.
     #[must_use]
-    pub fn result(&self) -> (Type, u64) {
+    pub fn typed_result(&self) -> (Type, u64) {
         (self.given, self.machine.result() & self.given.mask())
     }
 
@@ -204,7 +204,7 @@ impl<'s> Replay<'s> {
                 return Err(format!("`{}`", program.variable(variable).name));
             }
         }
-        let (given, result) = self.result();
+        let (given, result) = self.typed_result();
         if self.system.result(given.width, is_marked) != Some(result) {
             return Err("the current result".to_owned());
         }

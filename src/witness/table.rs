@@ -44,84 +44,80 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// The table as a text no wider than this, where it can be: what does not fit stands below, in another block of columns
-    /// that begins with the first group again.
+    /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of
+    /// columns, an empty line between them.
     #[must_use]
-    pub fn in_blocks(&self, width: usize) -> String {
+    pub fn within(&self, width: usize) -> String {
         let widths = self.widths();
-        let fixed = self.groups.first().map_or(0, Vec::len);
-        let own = |columns: &[usize]| columns.iter().map(|&column| widths[column] + 1).sum::<usize>();
-        let head = own(&(0..fixed).collect::<Vec<_>>());
-        let mut blocks: Vec<Vec<usize>> = vec![Vec::new()];
-        let (mut taken, mut last) = (head, 0);
-        let columns = self.groups.iter().enumerate().flat_map(|(group, columns)| columns.iter().map(move |_| group));
-        for (column, group) in columns.enumerate().skip(fixed) {
-            // A bar with two spaces stands between groups, a space between columns.
-            let needed = widths[column] + if group == last { 1 } else { 3 };
-            if taken + needed > width + 1 && blocks.last().is_some_and(|block| !block.is_empty()) {
-                blocks.push(Vec::new());
-                taken = head;
-                last = 0;
+        let first = self.groups.first().map_or(0, Vec::len);
+        let own: usize = widths[..first].iter().sum::<usize>() + first.saturating_sub(1);
+        let mut blocks: Vec<Vec<usize>> = Vec::new();
+        let (mut used, mut column) = (0, 0);
+        for (group, columns) in self.groups.iter().enumerate() {
+            for place in 0..columns.len() {
+                let gap = if place == 0 { 3 } else { 1 };
+                match blocks.last_mut() {
+                    _ if group == 0 => {}
+                    Some(block) if used + gap + widths[column] <= width => {
+                        block.push(column);
+                        used += gap + widths[column];
+                    }
+                    _ => {
+                        blocks.push((0..first).chain([column]).collect());
+                        used = own + 3 + widths[column];
+                    }
+                }
+                column += 1;
             }
-            taken += widths[column] + if group == last { 1 } else { 3 };
-            last = group;
-            blocks.last_mut().expect("there is a first block").push(column);
         }
-        let texts: Vec<String> = blocks.iter().map(|block| self.part(fixed, block).to_string()).collect();
-        texts.join("\n")
-    }
-
-    /// The first columns, and some others.
-    fn part(&self, fixed: usize, columns: &[usize]) -> Self {
-        let is_in = |column: usize| column < fixed || columns.contains(&column);
-        let mut position = 0..;
-        let groups = self
-            .groups
-            .iter()
-            .map(|group| group.iter().filter(|_| position.next().is_some_and(is_in)).cloned().collect());
-        let mut part = Self::new(groups.collect());
-        part.rows = self
-            .rows
-            .iter()
-            .map(|row| {
-                row.iter().enumerate().filter(|(column, _)| is_in(*column)).map(|(_, cell)| cell.clone()).collect()
-            })
-            .collect();
-        part
+        let texts: Vec<String> =
+            blocks.iter().map(|block| self.block(&widths, &|column| block.contains(&column))).collect();
+        if texts.is_empty() { self.to_string() } else { texts.join("\n") }
     }
 
     /// How wide each column is.
     fn widths(&self) -> Vec<usize> {
         let heads = self.groups.iter().flatten().map(|column| column.head.as_str());
-        heads
-            .enumerate()
-            .map(|(i, head)| {
-                let cells = self.rows.iter().map(|row| row[i].as_str());
-                cells.chain([head]).map(|cell| cell.chars().count()).max().unwrap_or(0)
-            })
-            .collect()
+        let width = |(i, head): (usize, &str)| {
+            let cells = self.rows.iter().map(|row| row[i].as_str());
+            cells.chain([head]).map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        heads.enumerate().map(width).collect()
+    }
+
+    /// Some columns of the table.
+    fn block(&self, widths: &[usize], shown: &dyn Fn(usize) -> bool) -> String {
+        let mut text = self.line(widths, shown, " | ", |_, column| column.head.clone());
+        text += &self.line(widths, shown, "-+-", |i, _| "-".repeat(widths[i]));
+        self.rows.iter().for_each(|row| text += &self.line(widths, shown, " | ", |i, _| row[i].clone()));
+        text
     }
 
     /// Sets the cells of a row, group by group.
-    fn line(&self, widths: &[usize], separator: &str, cell: impl Fn(usize, &Column) -> String) -> String {
-        let mut column = 0;
-        let groups = self.groups.iter().map(|group| {
-            let cells = group.iter().map(|c| {
-                column += 1;
-                c.pad(&cell(column - 1, c), widths[column - 1])
-            });
-            cells.collect::<Vec<_>>().join(if separator.contains('+') { "-" } else { " " })
-        });
-        groups.collect::<Vec<_>>().join(separator).trim_end().to_owned()
+    fn line(
+        &self,
+        widths: &[usize],
+        shown: &dyn Fn(usize) -> bool,
+        separator: &str,
+        cell: impl Fn(usize, &Column) -> String,
+    ) -> String {
+        let mut number = 0;
+        let mut groups = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            let columns = group.iter().zip(number..).filter(|(_, column)| shown(*column));
+            let cells: Vec<String> = columns.map(|(column, i)| column.pad(&cell(i, column), widths[i])).collect();
+            number += group.len();
+            if !cells.is_empty() {
+                groups.push(cells.join(if separator.contains('+') { "-" } else { " " }));
+            }
+        }
+        format!("{}\n", groups.join(separator).trim_end())
     }
 }
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let widths = self.widths();
-        writeln!(f, "{}", self.line(&widths, " | ", |_, column| column.head.clone()))?;
-        writeln!(f, "{}", self.line(&widths, "-+-", |i, _| "-".repeat(widths[i])))?;
-        self.rows.iter().try_for_each(|row| writeln!(f, "{}", self.line(&widths, " | ", |i, _| row[i].clone())))
+        f.write_str(&self.block(&self.widths(), &|_| true))
     }
 }
 
@@ -130,20 +126,16 @@ mod tests {
     use super::{Column, Table};
 
     #[test]
-    fn what_does_not_fit_stands_below() {
-        let right = |heads: &[&str]| heads.iter().map(|&head| Column::right(head)).collect::<Vec<_>>();
-        let mut table = Table::new(vec![right(&["scan"]), right(&["S1", "Start"]), right(&["Motor"])]);
-        table.row(["1", "0", "1", "-300"].map(str::to_owned).into());
-        table.row(["2", "1", "0", "7"].map(str::to_owned).into());
-        let whole =
-            "scan | S1 Start | Motor\n-----+----------+------\n   1 |  0     1 |  -300\n   2 |  1     0 |     7\n";
+    fn a_narrow_table_is_split_into_blocks() {
+        let groups = [vec!["scan"], vec!["In", "Stop"], vec!["Motor"]];
+        let mut table = Table::new(groups.map(|group| group.into_iter().map(Column::right).collect()).into());
+        table.row(["1", "*1", "0", "*1"].map(String::from).into());
+        let whole = "scan | In Stop | Motor\n-----+---------+------\n   1 | *1    0 |    *1\n";
         assert_eq!(table.to_string(), whole);
-        assert_eq!(table.in_blocks(23), whole);
-        let halves = "scan | S1 Start\n-----+---------\n   1 |  0     1\n   2 |  1     0\n\n\
-                      scan | Motor\n-----+------\n   1 |  -300\n   2 |     7\n";
-        assert_eq!(table.in_blocks(22), halves);
-        assert_eq!(table.in_blocks(15), halves);
-        assert_eq!(table.in_blocks(14).lines().filter(|line| line.starts_with("scan")).count(), 3);
-        assert_eq!(table.in_blocks(1).lines().filter(|line| line.starts_with("scan")).count(), 3);
+        assert_eq!(table.within(22), whole);
+        let split = "scan | In Stop\n-----+--------\n   1 | *1    0\n\nscan | Motor\n-----+------\n   1 |    *1\n";
+        assert_eq!(table.within(21), split);
+        let apart = "scan | In\n-----+---\n   1 | *1\n\nscan | Stop\n-----+-----\n   1 |    0\n\nscan | Motor\n-----+------\n   1 |    *1\n";
+        assert_eq!(table.within(5), apart, "what does not fit stands alone");
     }
 }

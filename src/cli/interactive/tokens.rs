@@ -23,7 +23,7 @@ pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let is_idle = replay.control() == PlaceRole::Idle;
     let plant = system.plant_moves().iter().filter(|_| is_idle);
     let (enabled, others): (Vec<_>, Vec<_>) = replay.ways().iter().chain(plant).copied().partition(is_enabled);
-    let next = screen.session.next();
+    let next = screen.session.next_transition();
     let mut lines = vec![control(screen, &replay)];
     lines.extend(marked_plant(screen, &replay));
     for &id in enabled.iter().chain(&others).take(usize::from(area.height)) {

@@ -106,7 +106,7 @@ fn print(
     let trace = &run.trace;
     let title = format!("{} from {}, {} scans", system.program.name, source.name(), trace.scans.len());
     // A file has no width.
-    let width = console.output_width().filter(|_| arguments.output.is_none());
+    let width = if arguments.output.is_some() { usize::MAX } else { console.output_width() };
     let mut text = show::text(system, trace, format, &title, width);
     if let Some(scan) = arguments.by_line {
         let Some(position) = scan.checked_sub(1).filter(|&position| position < trace.scans.len()) else {

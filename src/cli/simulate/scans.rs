@@ -35,10 +35,9 @@ pub fn scans(
         let plan = steering.plan(position, from);
         let (scan, failure) = scan(system, tolerated, from, &plan)
             .map_err(|impossible| format!("before scan {}, {impossible}", position + 1))?;
-        if let Steering::Recorded(recorded) = steering {
-            if let Some(difference) = recorded.difference(&system.program, position, &scan) {
-                return Err(difference);
-            }
+        let recorded = steering.recorded();
+        if let Some(difference) = recorded.and_then(|run| run.difference(&system.program, position, &scan)) {
+            return Err(difference);
         }
         run.is_met = until.zip(scan.end.as_ref()).is_some_and(|(condition, end)| condition.is_met_by(&end.memory));
         run.trace.scans.push(scan);

@@ -12,14 +12,11 @@ use petril::witness::{Column, ScanTrace, Table};
 use crate::cli::args::Format;
 
 /// The scans that have ended.
-pub fn text(system: &System, trace: &ScanTrace, format: Format, title: &str, width: Option<usize>) -> String {
+pub fn text(system: &System, trace: &ScanTrace, format: Format, title: &str, width: usize) -> String {
     match format {
         Format::Csv => csv(&system.program, trace),
         Format::Vcd => vcd::write(system, trace, title),
-        Format::Table => {
-            let table = table(system, trace);
-            width.map_or_else(|| table.to_string(), |width| table.in_blocks(width))
-        }
+        Format::Table => table(system, trace).within(width),
     }
 }
 
