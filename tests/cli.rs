@@ -8,5 +8,6 @@ fn sessions_go_as_shown() {
         .case("docs/requirements.md")
         .case("docs/examples.md")
         .case("docs/nets.md")
+        .case("docs/simulation.md")
         .env("RUST_BACKTRACE", "0");
 }

@@ -238,7 +238,7 @@ fn chance_is_the_same_for_the_same_seed_and_comes_to_the_interesting_values() {
         assert!(values.contains(&interesting), "{interesting}: {values:?}");
     }
     // A seed means the same run for ever: these are written down.
-    assert_eq!((0..8).map(level).collect::<Vec<_>>(), [0, 0, 0, 0, -12581, -12581, -12581, 20001]);
+    assert_eq!((0..8).map(level).collect::<Vec<_>>(), [0, 0, 0, 0, 0, 20000, 20000, 20001]);
 }
 
 /// Nobody fills this tank by uniform chance: from every level, what takes water is as likely as what brings it, and it leaks.

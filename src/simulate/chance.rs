@@ -9,7 +9,7 @@ use crate::semantics::VarId;
 use crate::translate::{Domain, System};
 
 /// A free input changes before one scan in so many: what needs several scans, like a timer, should come about.
-const CHANGES: u128 = 3;
+const CHANGES: u128 = 4;
 
 /// One number in so many is any of the domain; the others lie where the program may tell numbers apart.
 const ANY: u128 = 4;
@@ -59,7 +59,7 @@ impl<'s> Chance<'s> {
         }
         for input in &self.inputs {
             if self.lots.below(CHANGES) == 0 {
-                plan.inputs.push((input.variable, input.value(&mut self.lots)));
+                plan.inputs.push((input.variable, input.value(from.memory[input.variable.0], &mut self.lots)));
             }
         }
         plan
@@ -67,7 +67,11 @@ impl<'s> Chance<'s> {
 }
 
 impl FreeInput {
-    fn value(&self, lots: &mut Lots) -> u64 {
+    /// Another value than it has, if there are two; else any.
+    fn value(&self, now: u64, lots: &mut Lots) -> u64 {
+        if self.domain.size() == 2 {
+            return self.domain.patterns().find(|&pattern| pattern != now).unwrap_or(now);
+        }
         let known = if lots.below(ANY) == 0 { None } else { lots.one_of(&self.interesting).copied() };
         self.domain.ty.pattern(known.unwrap_or_else(|| nth(&self.domain, lots.below(self.domain.size()))))
     }

@@ -14,7 +14,7 @@ use ratatui::backend::TestBackend;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::draw::draw;
-use super::keys::Flow;
+use super::keys::{Flow, HELP};
 use super::screen::{Mode, Screen};
 
 const SWITCH: &str = include_str!("../../../examples/two-hand-switch.il");
@@ -77,6 +77,30 @@ fn a_scan_line_by_line() {
     press(&mut screen, "n");
     insta::assert_snapshot!("tokens-80x24", seen(&screen, 80, 24));
     insta::assert_snapshot!("tokens-40x12", seen(&screen, 40, 12));
+}
+
+/// The guide has what is seen, and what the keys do.
+#[test]
+fn the_guide_shows_what_is_seen() {
+    let guide = include_str!("../../../docs/simulation.md");
+    let system = read("two-hand-switch.il", SWITCH, None);
+    let mut screen = begin(&system);
+    let shown = |screen: &Screen<'_>| {
+        let text = seen(screen, 80, 24);
+        text.lines().map(|line| format!("{}\n", line.trim_matches('"').trim_end())).collect::<String>()
+    };
+    press(&mut screen, "34s13s24lllllllll");
+    let lines = shown(&screen);
+    assert!(guide.contains(&lines), "SCREEN\n{lines}");
+    press(&mut screen, "n");
+    let tokens = shown(&screen);
+    let (_, tokens) = tokens.split_once("┌net").unwrap();
+    let tokens: String = tokens.lines().take(6).map(|line| format!("{line}\n")).collect();
+    assert!(guide.contains(&format!("┌net{tokens}")), "NET\n┌net{tokens}");
+    for (key, text) in HELP {
+        let row = format!("| `{}` | {text} |\n", key.replace("  ", "`, `"));
+        assert!(guide.contains(&row), "{row}");
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod steering;
 use std::ffi::OsStr;
 use std::process::ExitCode;
 
+use petril::logic::View;
 use petril::simulate::{Breakpoint, Session};
 use petril::source::Source;
 use petril::translate::System;
@@ -45,9 +46,22 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let default = steering.len().unwrap_or(if until.is_some() { UNTIL_SCANS } else { DEFAULT_SCANS });
     let count = arguments.scans.unwrap_or(default);
     let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
-        .map_err(Failure::Message)?;
+        .map_err(|problem| refused(arguments, problem))?;
+    if let Some(recorded) = steering.recorded() {
+        console.message(&format!("this is the run of `{}`\n", recorded.requirement));
+    }
     print(arguments, format, &system, &source, &made, console)?;
+    let notes = steering.recorded().into_iter().flat_map(|recorded| &recorded.notes);
+    for note in notes.filter(|note| note.last < made.trace.scans.len()) {
+        console.message(&format!("{}\n", note.sentence(View::Scan)));
+    }
     Ok(tell(arguments, &system, &source, &made, console))
+}
+
+/// A run that is not the one of the report.
+fn refused(arguments: &Simulate, problem: String) -> Failure {
+    let report = arguments.replay.as_ref().map(|path| format!("{}: ", path.display()));
+    Failure::Message(report.unwrap_or_default() + &problem)
 }
 
 /// Shows the run in the terminal. One from a report must be as it was recorded, as always.
@@ -61,7 +75,7 @@ fn interact(
     let tolerated = arguments.meaning.tolerated();
     let plans = steering.plans();
     if arguments.replay.is_some() {
-        scans(system, tolerated, &mut steering, plans.len(), None).map_err(Failure::Message)?;
+        scans(system, tolerated, &mut steering, plans.len(), None).map_err(|problem| refused(arguments, problem))?;
     }
     let notes = steering.recorded().map_or_else(Vec::new, |recorded| recorded.notes.clone());
     let seed = arguments.random.flatten().unwrap_or_else(steering::any_seed);
@@ -121,7 +135,7 @@ fn print(
     }
 }
 
-/// Says how the run ended, and gives the exit code that goes with it.
+/// Says whose run it is and how it ended, and gives the exit code that goes with it.
 fn tell(arguments: &Simulate, system: &System, source: &Source, run: &Run, console: &Console) -> ExitCode {
     let scans = run.trace.scans.len();
     match (&arguments.until, run.failure) {

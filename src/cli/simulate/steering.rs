@@ -40,7 +40,8 @@ impl<'s> Steering<'s> {
         if let Some(path) = &arguments.replay {
             let source = input::source(path, MAX_INPUTS, console)?;
             let say = |problem: String| Failure::Message(format!("{}: {problem}", source.name()));
-            let report: Value = serde_json::from_str(source.text()).map_err(|error| say(error.to_string()))?;
+            let report: Value = serde_json::from_str(source.text())
+                .map_err(|error| say(format!("this is no JSON document: {error}")))?;
             return Ok(Self::Recorded(recorded(&report, arguments.requirement.as_deref(), system).map_err(say)?));
         }
         // Who steps through the run steers, and draws lots by key.
