@@ -37,7 +37,9 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let (Program { flat, source }, plant) =
         input::parts(&arguments.program, &arguments.plant, &arguments.meaning.reading, console)?;
     let domains = steering::domains(&arguments.domain, &flat, &plant, console)?;
-    let system = System::with_domains(flat, plant, domains);
+    // Only who steps through the net needs it.
+    let compose = if arguments.interactive { System::with_domains } else { System::without_net };
+    let system = compose(flat, plant, domains);
     let until = arguments.until.as_ref().map(|text| condition(text, &system, console)).transpose()?;
     let mut steering = Steering::of(arguments, &system, console)?;
     if arguments.interactive {
