@@ -41,6 +41,8 @@ pub enum Stopped {
     PowerOn,
     /// This can be done only between two scans.
     UnderWay,
+    /// It is no input: the program gives it its values.
+    NoInput,
     /// The plant gives this input its values.
     Driven,
     /// The input cannot have this value.
@@ -58,6 +60,7 @@ impl fmt::Display for Stopped {
         match self {
             Self::PowerOn => f.write_str("there is nothing before power-on"),
             Self::UnderWay => f.write_str("a scan is under way: inputs are read when one begins"),
+            Self::NoInput => f.write_str("this is no input: the program gives it its values"),
             Self::Driven => f.write_str("the plant gives this input its values"),
             Self::NoValue => f.write_str("this input cannot have this value"),
             Self::Plant(impossible) => impossible.fmt(f),
@@ -230,17 +233,30 @@ impl<'s> Session<'s> {
         }
     }
 
+    /// Whether an input can get another value now.
+    ///
+    /// # Errors
+    /// It is no input, the plant drives it, or a scan is under way.
+    pub fn may_set(&self, input: VarId) -> Result<(), Stopped> {
+        if self.system.program.variable(input).role != Role::Input {
+            Err(Stopped::NoInput)
+        } else if self.system.plant.driver(input).is_some() {
+            Err(Stopped::Driven)
+        } else if self.is_within() {
+            Err(Stopped::UnderWay)
+        } else {
+            Ok(())
+        }
+    }
+
     /// Gives an input a value, a pattern of its type, for the next scan and those behind it.
     ///
     /// # Errors
-    /// The plant drives it, it cannot have this value, or a scan is under way.
+    /// As [`Session::may_set`], or it cannot have this value.
     pub fn set(&mut self, input: VarId, value: u64) -> Result<(), Stopped> {
+        self.may_set(input)?;
         let domain = self.system.domain(input);
-        if self.is_within() {
-            return Err(Stopped::UnderWay);
-        } else if self.system.program.variable(input).role != Role::Input || self.system.plant.driver(input).is_some() {
-            return Err(Stopped::Driven);
-        } else if !domain.contains(domain.ty.number(value)) {
+        if !domain.contains(domain.ty.number(value)) {
             return Err(Stopped::NoValue);
         }
         let mut plan = self.plan();

@@ -12,8 +12,10 @@ use crate::cli::input_table;
 /// Keys of free inputs. Letters that are left out mean something else.
 const LABELS: &str = "123456789abdefghimouvwxyz";
 
-/// A run to a condition takes at most so many scans, or so many firings if the condition is about those.
+/// A run to a condition takes at most so many scans, of which all values are kept, or so many firings if the condition is about
+/// those.
 const RUN_SCANS: usize = 10_000;
+const RUN_VALUES: usize = 1 << 25;
 const RUN_FIRINGS: usize = 100_000;
 
 /// A session with everything its user sees.
@@ -119,10 +121,8 @@ impl<'s> Screen<'s> {
     pub fn change(&mut self, input: VarId) {
         if self.program().variable(input).ty.is_bool() {
             self.attempt(|session| session.toggle(input));
-        } else if self.session.is_within() {
-            self.complain(Stopped::UnderWay.to_string());
-        } else if self.label(input).is_none() && !self.session.system().free_inputs().any(|free| free == input) {
-            self.complain(Stopped::Driven.to_string());
+        } else if let Err(stopped) = self.session.may_set(input) {
+            self.complain(stopped.to_string());
         } else {
             self.mode = Mode::Value(input, String::new());
         }
@@ -179,7 +179,7 @@ impl<'s> Screen<'s> {
             }
         };
         let (limit, unit) = match breakpoint {
-            Breakpoint::Scans(_) => (RUN_SCANS, "scans"),
+            Breakpoint::Scans(_) => (RUN_SCANS.min(1 + RUN_VALUES / self.program().variables.len().max(1)), "scans"),
             Breakpoint::Firings(_) => (RUN_FIRINGS, "firings"),
         };
         let begun = self.session.clone();

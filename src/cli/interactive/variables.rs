@@ -14,24 +14,40 @@ pub fn title(screen: &Screen<'_>) -> String {
 
 /// The list, as much of it as there is room for, around the chosen one.
 pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
-    let mut lines = Vec::new();
-    let mut chosen = 0;
-    let mut last = None;
-    let next = if screen.session.is_within() { Vec::new() } else { screen.session.next_inputs() };
-    for (position, &id) in screen.variables.iter().enumerate() {
+    let mut rows = Vec::new();
+    for &id in &screen.variables {
         let role = screen.program().variable(id).role;
-        if last.replace(role) != Some(role) {
-            lines.push(Line::from(heading(role)).dim());
+        if !matches!(rows.last(), Some(&Row::Variable(before)) if screen.program().variable(before).role == role) {
+            rows.push(Row::Heading(role));
         }
-        if position == screen.chosen {
-            chosen = lines.len();
-        }
-        let next = next.iter().find(|&&(input, _)| input == id).map(|&(_, value)| value);
-        lines.push(line(screen, id, next, position == screen.chosen, area.width.into()));
+        rows.push(Row::Variable(id));
     }
+    let chosen = screen.variables.get(screen.chosen);
+    let at = rows.iter().position(|row| matches!(row, Row::Variable(id) if Some(id) == chosen)).unwrap_or(0);
     let height = usize::from(area.height);
-    let first = chosen.saturating_sub(height / 2).min(lines.len().saturating_sub(height));
-    lines.split_off(first)
+    let first = at.saturating_sub(height / 2).min(rows.len().saturating_sub(height));
+    let shown = &rows[first..rows.len().min(first + height)];
+    let next = if screen.session.is_within() { Vec::new() } else { screen.session.next_inputs() };
+    let length = |row: &Row| match *row {
+        Row::Variable(id) => screen.program().variable(id).name.chars().count(),
+        Row::Heading(_) => 0,
+    };
+    let longest = shown.iter().map(length).max().unwrap_or(0);
+    let line = |row: &Row| match *row {
+        Row::Heading(role) => Line::from(heading(role)).dim(),
+        Row::Variable(id) => {
+            let next = next.iter().find(|&&(input, _)| input == id).map(|&(_, value)| value);
+            let line = line(screen, id, next, longest, area.width.into());
+            if chosen == Some(&id) { line.reversed() } else { line }
+        }
+    };
+    shown.iter().map(line).collect()
+}
+
+/// A row of the list.
+enum Row {
+    Heading(Role),
+    Variable(VarId),
 }
 
 fn heading(role: Role) -> &'static str {
@@ -45,7 +61,7 @@ fn heading(role: Role) -> &'static str {
 }
 
 /// `3 Level  *80 → 81`: key, name, a star if it has changed, value, and what is read next if that is another value.
-fn line(screen: &Screen<'_>, id: VarId, next: Option<u64>, is_chosen: bool, width: usize) -> Line<'static> {
+fn line(screen: &Screen<'_>, id: VarId, next: Option<u64>, longest: usize, width: usize) -> Line<'static> {
     let program = screen.program();
     let value = screen.session.value(id);
     let is_changed = screen.session.is_changed(id);
@@ -53,13 +69,11 @@ fn line(screen: &Screen<'_>, id: VarId, next: Option<u64>, is_chosen: bool, widt
     let next = next.filter(|&next| next != value).map(|next| format!(" → {}", program.value_text(id, next)));
     let next = next.unwrap_or_default();
     let key = screen.label(id).unwrap_or(' ');
-    let longest = screen.variables.iter().map(|&id| program.variable(id).name.chars().count()).max().unwrap_or(1);
     let room = width.saturating_sub(3 + text.chars().count() + next.chars().count()).clamp(1, longest.max(12));
     let name = fitting(&program.variable(id).name, room);
     let name = Span::raw(format!("{key} {name:room$} "));
     let text = if is_changed { text.bold().yellow() } else { Span::raw(text) };
-    let line = Line::from_iter([name, text, next.cyan()]);
-    if is_chosen { line.reversed() } else { line }
+    Line::from_iter([name, text, next.cyan()])
 }
 
 /// A name in so many columns; of a longer one, its end.

@@ -48,7 +48,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let default = steering.len().unwrap_or(if until.is_some() { UNTIL_SCANS } else { DEFAULT_SCANS });
     let count = arguments.scans.unwrap_or(default);
     let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
-        .map_err(|problem| refused(arguments, problem))?;
+        .map_err(|problem| refused(arguments, &problem))?;
     if let Some(recorded) = steering.recorded() {
         console.message(&format!("this is the run of `{}`\n", recorded.requirement));
     }
@@ -61,9 +61,9 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
 }
 
 /// A run that is not the one of the report.
-fn refused(arguments: &Simulate, problem: String) -> Failure {
+fn refused(arguments: &Simulate, problem: &str) -> Failure {
     let report = arguments.replay.as_ref().map(|path| format!("{}: ", path.display()));
-    Failure::Message(report.unwrap_or_default() + &problem)
+    Failure::Message(report.unwrap_or_default() + problem)
 }
 
 /// Shows the run in the terminal. One from a report must be as it was recorded, as always.
@@ -77,7 +77,7 @@ fn interact(
     let tolerated = arguments.meaning.tolerated();
     let plans = steering.plans();
     if arguments.replay.is_some() {
-        scans(system, tolerated, &mut steering, plans.len(), None).map_err(|problem| refused(arguments, problem))?;
+        scans(system, tolerated, &mut steering, plans.len(), None).map_err(|problem| refused(arguments, &problem))?;
     }
     let notes = steering.recorded().map_or_else(Vec::new, |recorded| recorded.notes.clone());
     let seed = arguments.random.flatten().unwrap_or_else(steering::any_seed);
