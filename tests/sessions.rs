@@ -14,7 +14,7 @@ use petril::witness::{ScanTrace, replay_scans};
 use proptest::prelude::*;
 use support::agreement::programs;
 use support::random_flat::Choices;
-use support::runs::by_chance;
+use support::runs::{TOLERATED, by_chance};
 use support::systems::system;
 use support::{random_program, random_wide_program};
 
@@ -33,7 +33,7 @@ fn shown(session: &Session<'_>) -> (usize, Option<usize>, Vec<u64>, Marking) {
 fn goes_through(system: &System, seed: u64, scans: usize) -> Result<(), TestCaseError> {
     let trace = by_chance(system, seed, scans);
     prop_assert_eq!(replay_scans(system, &trace, |_, _| Ok(())), Ok(()));
-    let begin = || Session::new(system, Tolerated::default(), plans(&trace));
+    let begin = || Session::new(system, TOLERATED, plans(&trace));
     let total = trace.scans.len();
 
     let mut by_scan = begin();
@@ -91,6 +91,24 @@ proptest! {
         let program = support::program(&random_wide_program::text(&mut Choices::new(&numbers)));
         goes_through(&System::new(program, Plant::default()), seed, 2)?;
     }
+}
+
+/// Random programs make scans, most of them: otherwise the above says little.
+#[test]
+fn many_programs_come_far() {
+    let mut generator = 1_u64;
+    let mut next = || {
+        // Knuth's MMIX.
+        generator = generator.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (generator >> 32) as u32
+    };
+    let scans = (0..100).map(|seed| {
+        let numbers: Vec<u32> = (0..200).map(|_| next()).collect();
+        let program = support::program(&random_wide_program::text(&mut Choices::new(&numbers)));
+        by_chance(&System::new(program, Plant::default()), seed, 2).scans.len()
+    });
+    let scans: usize = scans.sum();
+    assert!(scans > 100, "{scans} of 200");
 }
 
 const SWITCH: &str = "PROGRAM p VAR_INPUT i, j : BOOL; k : SINT; END_VAR VAR_OUTPUT q : BOOL; n : SINT; END_VAR\n\

@@ -6,6 +6,9 @@ use petril::simulate::{Chance, scan};
 use petril::translate::System;
 use petril::witness::ScanTrace;
 
+/// What a PLC usually does goes on; an index outside its array does not.
+pub const TOLERATED: Tolerated = Tolerated { overflow: true, division_by_zero: true };
+
 /// So many scans by chance, or fewer if one of them fails; that one is left out.
 pub fn by_chance(system: &System, seed: u64, scans: usize) -> ScanTrace {
     let mut chance = Chance::new(system, seed);
@@ -13,7 +16,7 @@ pub fn by_chance(system: &System, seed: u64, scans: usize) -> ScanTrace {
     let mut state = ScanState::power_on(system);
     for _ in 0..scans {
         let plan = chance.plan(&state);
-        let (made, failure) = scan(system, Tolerated::default(), &state, &plan).unwrap();
+        let (made, failure) = scan(system, TOLERATED, &state, &plan).unwrap();
         let (None, Some(end)) = (failure, &made.end) else { break };
         state = end.clone();
         trace.scans.push(made);
