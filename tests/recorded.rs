@@ -145,6 +145,46 @@ fn another_run_is_refused_with_scan_and_variable() {
     );
 }
 
+/// Each value of each scan, replaced by others: the report is refused, and nothing worse happens.
+#[test]
+fn any_other_value_is_refused() {
+    let (system, document) = counted();
+    let others = [
+        json!(null),
+        json!(true),
+        json!(false),
+        json!(0),
+        json!(1),
+        json!(-1),
+        json!(300),
+        json!(1.5),
+        json!("x"),
+        json!([]),
+        json!([3]),
+        json!({}),
+        json!({ "i": true }),
+    ];
+    let mut tried = 0;
+    for scan in 0..3 {
+        let own = &document["requirements"][0]["trace"]["scans"][scan];
+        for path in ["", "/inputs", "/inputs/i", "/memory", "/memory/m", "/outputs", "/outputs/n", "/ends", "/plant"] {
+            for other in &others {
+                let now = own.pointer(path).unwrap();
+                // Without a plant, what it did is told only.
+                if now == other || (path == "/plant" && other.is_array()) {
+                    continue;
+                }
+                let document =
+                    tampered(&document, |trace| *trace["scans"][scan].pointer_mut(path).unwrap() = other.clone());
+                let made = recorded(&document, None, &system).and_then(|run| again(&system, &run).map(drop));
+                assert!(made.is_err(), "scan {scan} {path} {other}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 300, "{tried}");
+}
+
 #[test]
 fn what_is_no_report_is_refused() {
     let (system, document) = counted();
@@ -172,7 +212,7 @@ fn another_plant_is_refused() {
     assert_eq!(again(&own, &run).unwrap().len(), 1);
     let other = system(COUNTER, &[&net("push")]);
     let problem = recorded(&document, None, &other).unwrap_err();
-    assert_eq!(problem, "in scan 1 of the report, the plant does `button.press`, which it cannot");
+    assert_eq!(problem, "in scan 1 of the report, the plant does \"button.press\", which it cannot");
     let idle = tampered(&document, |trace| trace["scans"][0]["plant"] = json!([]));
     let problem = again(&own, &recorded(&idle, None, &own).unwrap()).unwrap_err();
     assert!(problem.starts_with("in scan 1, `i` becomes 0, and 1 in the report"), "{problem}");

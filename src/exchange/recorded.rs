@@ -137,10 +137,12 @@ fn read(scan: &Value, system: &System) -> Result<(Plan, Expected), String> {
     let program = &system.program;
     let has_plant = !system.plant.components.is_empty();
     let mut plan = Plan::default();
-    for name in scan["plant"].as_array().into_iter().flatten().filter_map(Value::as_str).filter(|_| has_plant) {
-        plan.moves.push(find(system, name).ok_or_else(|| format!("the plant does `{name}`, which it cannot"))?);
+    let done = scan["plant"].as_array().ok_or("it is not said what the plant does")?;
+    for name in done.iter().filter(|_| has_plant) {
+        let found = name.as_str().and_then(|name| find(system, name));
+        plan.moves.push(found.ok_or_else(|| format!("the plant does {name}, which it cannot"))?);
     }
-    let ends = scan["ends"].as_bool().unwrap_or(true);
+    let ends = scan["ends"].as_bool().ok_or("it is not said whether it ends")?;
     let mut values = group(scan, "inputs", Role::Input, program)?;
     plan.inputs = values.iter().copied().filter(|&(input, _)| system.plant.driver(input).is_none()).collect();
     if ends {
