@@ -5,12 +5,13 @@
 mod support;
 
 use petril::flat::Tolerated;
+use petril::logic::View;
 use petril::net::Marking;
 use petril::semantics::VarId;
-use petril::simulate::{Breakpoint, Chance, Plan, Session, Stopped};
+use petril::simulate::{Breakpoint, Chance, Plan, Session, Stopped, Watch, condition};
 use petril::source::Source;
 use petril::translate::{Plant, System};
-use petril::witness::{ScanTrace, replay_scans};
+use petril::witness::{Recalled, ScanTrace, replay_scans};
 use proptest::prelude::*;
 use support::agreement::programs;
 use support::random_flat::Choices;
@@ -196,7 +197,7 @@ fn the_plant_does_what_it_can_and_inputs_follow() {
 fn runs_stop_at_conditions_and_at_lines() {
     let system = system(SWITCH, &[]);
     let [k, n] = names(&system, &["k", "n"])[..] else { panic!() };
-    let breakpoint = |text: &str| Breakpoint::anywhere(&Source::new("condition", text), &system);
+    let breakpoint = |text: &str| Breakpoint::read(&Source::new("condition", text), &system);
     let mut session = Session::new(&system, Tolerated { overflow: true, division_by_zero: false }, vec![]);
     session.set(k, 3).unwrap();
     assert_eq!(session.run_until(&breakpoint("n > 10").unwrap(), 100, None), Ok(true));
@@ -208,6 +209,46 @@ fn runs_stop_at_conditions_and_at_lines() {
     for wrong in ["AG q", "nothing", "n", "at line 99", "q &"] {
         assert!(breakpoint(wrong).is_err(), "{wrong}");
     }
+}
+
+/// What a condition knows of scans before is what the definitions say, scan after scan, and stepping back forgets it.
+#[test]
+fn conditions_look_back() {
+    let system = system(SWITCH, &[]);
+    let trace = by_chance(&system, 11, 60);
+    let texts = [
+        "rising(i)",
+        "falling(q)",
+        "pre(n) < n",
+        "changed(k)",
+        "once(i & j)",
+        "so_far(!q)",
+        "(i since j)",
+        "held(i, 3 scans)",
+        "pre(pre(i)) & !i",
+        "rising(once(q))",
+        "at first scan",
+    ];
+    let mut met = 0;
+    for text in texts {
+        let condition = condition(&Source::new("condition", text), &system, View::Scan).unwrap();
+        let power_on = petril::explore::ScanState::power_on(&system).memory;
+        let (mut watch, mut recalled) = (Watch::new(&condition, &power_on), Recalled::new(power_on.clone()));
+        let mut first = None;
+        for (position, scan) in trace.scans.iter().enumerate() {
+            let memory = &scan.end.as_ref().unwrap().memory;
+            recalled.push(memory.clone());
+            let seen = watch.see(memory);
+            assert_eq!(Some(seen), recalled.holds(&condition), "{text} in scan {}", position + 1);
+            first = first.or(seen.then_some(position + 1));
+            met += usize::from(seen);
+        }
+        let mut session = Session::new(&system, TOLERATED, plans(&trace));
+        let reached = session.run_until(&Breakpoint::Scans(condition), trace.scans.len(), None);
+        assert_eq!(reached, Ok(first.is_some()), "{text}");
+        assert_eq!(first.unwrap_or(60), session.scans().len(), "{text}");
+    }
+    assert!((100..500).contains(&met), "{met}");
 }
 
 #[test]

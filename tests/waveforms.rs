@@ -6,7 +6,6 @@ mod support;
 use std::collections::BTreeMap;
 
 use petril::exchange::vcd;
-use petril::flat::DEFAULT_SCAN_TIME;
 use petril::semantics::{Type, VarId};
 use petril::translate::{Plant, System};
 use petril::witness::ScanTrace;
@@ -88,9 +87,8 @@ fn agrees(system: &System, trace: &ScanTrace) -> Result<Dump, TestCaseError> {
     let dump = read(&vcd::write(system, trace, "a test"));
     prop_assert_eq!(&dump.program, &program.name);
     prop_assert_eq!(dump.variables.len(), program.declared().count());
-    let scan_time = program.scan_time.unwrap_or(DEFAULT_SCAN_TIME);
     let times: Vec<u64> = dump.times.iter().map(|(time, _)| *time).collect();
-    prop_assert_eq!(times, (0..=trace.scans.len() as u64).map(|scan| scan * scan_time).collect::<Vec<_>>());
+    prop_assert_eq!(times, (0..=trace.scans.len() as u64).map(|scan| scan * program.cycle).collect::<Vec<_>>());
     let mut changes = program.declared().count();
     for id in program.declared() {
         let variable = program.variable(id);
@@ -193,7 +191,7 @@ fn comments_tell_of_the_plant_and_the_loop() {
             "a test $end",
             "before scan 1: button.press $end",
             "and so on for ever: scan 2 ends in the state in which scan 1 ended $end",
-            "nothing in the program depends on its scan time; shown is a scan every 20 ms $end",
+            "a scan every 20 ms $end",
         ]
     );
 }

@@ -209,7 +209,8 @@ pub struct Simulate {
     /// last row, inputs stay as they are; a run of the report that goes on for ever does so.
     #[arg(long, value_name = "N")]
     pub scans: Option<usize>,
-    /// Stop after the first scan in which this is so: a formula about one state, like `Bottles > 200 & !Full`.
+    /// Stop after the first scan in which this is so: a formula without temporal operators, like `Bottles > 200 & !Full` or
+    /// `rising(Motor)`.
     #[arg(long, value_name = "CONDITION", visible_alias = "break", allow_hyphen_values = true)]
     pub until: Option<String>,
     /// How to print; if not given, as the ending of the file says (.csv, .vcd), or a table.

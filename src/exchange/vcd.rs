@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::flat::{DEFAULT_SCAN_TIME, FlatProgram};
+use crate::flat::FlatProgram;
 use crate::semantics::{Kind, Role, VarId};
 use crate::translate::System;
 use crate::witness::{Scan, ScanTrace};
@@ -46,15 +46,11 @@ pub fn write_rows(
     remarks: &[String],
     rows: impl IntoIterator<Item = Vec<Option<u64>>>,
 ) -> String {
-    let scan_time = program.scan_time.unwrap_or(DEFAULT_SCAN_TIME);
     let mut out = format!("$version petril {} $end\n$timescale 1 ms $end\n", env!("CARGO_PKG_VERSION"));
     for remark in remarks {
         out += &comment(remark);
     }
-    out += &comment(&match program.scan_time {
-        Some(time) => format!("a scan every {time} ms"),
-        None => format!("nothing in the program depends on its scan time; shown is a scan every {scan_time} ms"),
-    });
+    out += &comment(&format!("a scan every {} ms", program.cycle));
     let variables: Vec<VarId> = program.declared().collect();
     let mut scope = Scope::new(&program.name);
     variables.iter().enumerate().for_each(|(number, &id)| scope.add(&program.variable(id).name, number));
@@ -66,7 +62,7 @@ pub fn write_rows(
     }
     out += "$end\n";
     for (scan, row) in rows.into_iter().enumerate() {
-        let _ = writeln!(out, "#{}", (scan as u64 + 1).saturating_mul(scan_time));
+        let _ = writeln!(out, "#{}", (scan as u64 + 1).saturating_mul(program.cycle));
         for (number, (&id, value)) in variables.iter().zip(row).enumerate() {
             if std::mem::replace(&mut shown[number], value) != value {
                 change(program, id, number, value, &mut out);

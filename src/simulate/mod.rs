@@ -10,9 +10,11 @@ mod lots;
 mod plan;
 mod session;
 mod walk;
+mod watch;
 mod within;
 
-pub use breakpoint::Breakpoint;
+pub use breakpoint::{Breakpoint, condition};
 pub use chance::Chance;
 pub use plan::{Impossible, Plan, scan};
 pub use session::{Session, Stopped};
+pub use watch::Watch;

@@ -5,6 +5,7 @@ use std::fmt;
 use super::breakpoint::Breakpoint;
 use super::chance::Chance;
 use super::plan::{self, Impossible, Plan};
+use super::watch::Watch;
 use super::within::Within;
 use crate::explore::{Failure, ScanState};
 use crate::flat::Tolerated;
@@ -415,17 +416,30 @@ impl<'s> Session<'s> {
         limit: usize,
         mut chance: Option<&mut Chance<'s>>,
     ) -> Result<bool, Stopped> {
+        let mut watch = match breakpoint {
+            Breakpoint::Scans(condition) => {
+                let mut watch = Watch::new(condition, &self.power_on.memory);
+                self.scans.iter().filter_map(|scan| scan.end.as_ref()).for_each(|end| _ = watch.see(&end.memory));
+                Some(watch)
+            }
+            Breakpoint::Firings(_) => None,
+        };
         for _ in 0..limit {
-            if let Some(chance) =
-                chance.as_deref_mut().filter(|_| !self.is_within() && self.plans.len() == self.scans.len())
-            {
+            let is_free = !self.is_within() && self.plans.len() == self.scans.len();
+            if let Some(chance) = chance.as_deref_mut().filter(|_| is_free) {
                 self.draw_lots(chance)?;
             }
-            match breakpoint {
-                Breakpoint::Scans(_) => self.step_scan()?,
-                Breakpoint::Firings(_) => self.step_transition()?,
-            }
-            if breakpoint.is_met(self) {
+            let is_met = match (breakpoint, &mut watch) {
+                (Breakpoint::Firings(condition), _) => {
+                    self.step_transition()?;
+                    self.replay().holds(condition) == Some(true)
+                }
+                (Breakpoint::Scans(_), watch) => {
+                    self.step_scan()?;
+                    watch.as_mut().is_some_and(|watch| watch.see(&self.state().memory))
+                }
+            };
+            if is_met {
                 return Ok(true);
             }
         }

@@ -163,7 +163,7 @@ impl<'s> Screen<'s> {
             return;
         }
         let text = Source::new("condition", self.condition.as_str());
-        let breakpoint = match Breakpoint::anywhere(&text, self.session.system()) {
+        let breakpoint = match Breakpoint::read(&text, self.session.system()) {
             Ok(breakpoint) => breakpoint,
             Err(errors) => {
                 let words = errors.first().map(|error| {

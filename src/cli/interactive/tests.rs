@@ -164,9 +164,9 @@ fn wrong_answers_are_asked_again() {
     press(&mut screen, "<back><back><back>-7<enter>s");
     assert_eq!((screen.session.scans().len(), screen.session.value(screen.variables[0])), (1, 0xFFF9));
     press(&mut screen, "/AG Alarm<enter>");
-    assert!(said(&screen).starts_with("a condition is about one state"), "{}", said(&screen));
+    assert!(said(&screen).starts_with("a condition is about what has been"), "{}", said(&screen));
     press(&mut screen, "<esc>c");
-    assert!(said(&screen).starts_with("a condition is about one state"), "{}", said(&screen));
+    assert!(said(&screen).starts_with("a condition is about what has been"), "{}", said(&screen));
     press(&mut screen, "<esc>%");
     assert_eq!(said(&screen), "`%` does nothing; ? says what the keys do");
     assert_eq!(press(&mut screen, "q"), Flow::End);

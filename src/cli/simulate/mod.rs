@@ -7,8 +7,8 @@ mod steering;
 use std::ffi::OsStr;
 use std::process::ExitCode;
 
-use petril::logic::View;
-use petril::simulate::{Breakpoint, Session};
+use petril::logic::{Bound, View};
+use petril::simulate::{Session, condition};
 use petril::source::Source;
 use petril::translate::System;
 use petril::witness::line_by_line;
@@ -40,7 +40,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     // Only who steps through the net needs it.
     let compose = if arguments.interactive { System::with_domains } else { System::without_net };
     let system = compose(flat, plant, domains);
-    let until = arguments.until.as_ref().map(|text| condition(text, &system, console)).transpose()?;
+    let until = arguments.until.as_ref().map(|text| until(text, &system, console)).transpose()?;
     let mut steering = Steering::of(arguments, &system, console)?;
     if arguments.interactive {
         return interact(arguments, &system, &source, steering, console);
@@ -102,9 +102,10 @@ fn format(arguments: &Simulate) -> Result<Format, Failure> {
     Ok(format)
 }
 
-fn condition(text: &str, system: &System, console: &Console) -> Result<Breakpoint, Failure> {
+/// What `--until` says.
+fn until(text: &str, system: &System, console: &Console) -> Result<Bound, Failure> {
     let source = Source::new("condition", text);
-    Breakpoint::at_end(&source, system).map_err(|diagnostics| {
+    condition(&source, system, View::Scan).map_err(|diagnostics| {
         console.diagnostics(&diagnostics, &source);
         Failure::Reported
     })

@@ -2,7 +2,8 @@
 
 use petril::explore::{Failure, ScanState};
 use petril::flat::Tolerated;
-use petril::simulate::{Breakpoint, scan};
+use petril::logic::Bound;
+use petril::simulate::{Watch, scan};
 use petril::translate::System;
 use petril::witness::ScanTrace;
 
@@ -26,10 +27,11 @@ pub fn scans(
     tolerated: Tolerated,
     steering: &mut Steering<'_>,
     count: usize,
-    until: Option<&Breakpoint>,
+    until: Option<&Bound>,
 ) -> Result<Run, String> {
     let mut run = Run { trace: ScanTrace { scans: Vec::new(), loop_start: None }, failure: None, is_met: false };
     let power_on = ScanState::power_on(system);
+    let mut watch = until.map(|condition| Watch::new(condition, &power_on.memory));
     for position in 0..count {
         let from = run.trace.scans.last().and_then(|scan| scan.end.as_ref()).unwrap_or(&power_on);
         let plan = steering.plan(position, from);
@@ -39,7 +41,7 @@ pub fn scans(
         if let Some(difference) = recorded.and_then(|run| run.difference(&system.program, position, &scan)) {
             return Err(difference);
         }
-        run.is_met = until.zip(scan.end.as_ref()).is_some_and(|(condition, end)| condition.is_met_by(&end.memory));
+        run.is_met = watch.as_mut().zip(scan.end.as_ref()).is_some_and(|(watch, end)| watch.see(&end.memory));
         run.trace.scans.push(scan);
         run.failure = failure;
         if run.is_met || run.failure.is_some() {
