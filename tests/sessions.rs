@@ -264,6 +264,10 @@ fn a_run_does_not_go_on_behind_a_failure() {
     assert!(matches!(session.step_scan(), Err(Stopped::Failed(_))));
     assert!(matches!(session.step_line(), Err(Stopped::Failed(_))));
     session.back_scan().unwrap();
+    // What the failing scan leaves meets no condition.
+    let overflown = Breakpoint::read(&Source::new("condition", "n < 0"), &system).unwrap();
+    assert!(matches!(session.run_until(&overflown, 10, None), Err(Stopped::Failed(_))));
+    session.back_scan().unwrap();
     session.set(k, 0).unwrap();
     session.step_scan().unwrap();
     assert_eq!((session.value(n), session.failure()), (100, None));

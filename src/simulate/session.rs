@@ -1,10 +1,9 @@
 //! A run under somebody's hands.
 
-use std::fmt;
-
 use super::breakpoint::Breakpoint;
 use super::chance::Chance;
-use super::plan::{self, Impossible, Plan};
+use super::plan::{self, Plan};
+use super::stopped::Stopped;
 use super::watch::Watch;
 use super::within::Within;
 use crate::explore::{Failure, ScanState};
@@ -12,7 +11,7 @@ use crate::flat::Tolerated;
 use crate::net::TransitionId;
 use crate::semantics::{Role, Type, VarId};
 use crate::translate::{PlaceRole, System};
-use crate::witness::{Disagreement, PlantMove, Replay, Scan};
+use crate::witness::{PlantMove, Replay, Scan};
 
 /// A run that can be taken forward and back, by scans, lines and transitions, and whose inputs can be chosen before each scan.
 ///
@@ -33,46 +32,6 @@ pub struct Session<'s> {
     within: Option<Within<'s>>,
     /// What went wrong in the last scan.
     failure: Option<Failure>,
-}
-
-/// Why a step was not made.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Stopped {
-    /// There is nothing before power-on.
-    PowerOn,
-    /// This can be done only between two scans.
-    UnderWay,
-    /// It is no input: the program gives it its values.
-    NoInput,
-    /// The plant gives this input its values.
-    Driven,
-    /// The input cannot have this value.
-    NoValue,
-    /// The plant cannot do this.
-    Plant(Impossible),
-    /// The scan fails, or the one before did: what comes then is not known.
-    Failed(Failure),
-    /// Net and interpreter differ, which is an error in Petril.
-    Disagreement(Disagreement),
-}
-
-impl fmt::Display for Stopped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::PowerOn => f.write_str("there is nothing before power-on"),
-            Self::UnderWay => f.write_str("a scan is under way: inputs are read when one begins"),
-            Self::NoInput => f.write_str("this is no input: the program gives it its values"),
-            Self::Driven => f.write_str("the plant gives this input its values"),
-            Self::NoValue => f.write_str("this input cannot have this value"),
-            Self::Plant(impossible) => impossible.fmt(f),
-            Self::Failed(Failure::Scan(_)) => f.write_str("this scan never ends"),
-            Self::Failed(Failure::Hazard(line, hazard)) => {
-                write!(f, "{hazard} in line {}: what a PLC does then is not known", line + 1)
-            }
-            Self::Failed(Failure::NotSafe(_)) => f.write_str("a place would get a second token"),
-            Self::Disagreement(disagreement) => write!(f, "net and interpreter disagree: {disagreement}"),
-        }
-    }
 }
 
 impl<'s> Session<'s> {
@@ -436,7 +395,7 @@ impl<'s> Session<'s> {
                 }
                 (Breakpoint::Scans(_), watch) => {
                     self.step_scan()?;
-                    watch.as_mut().is_some_and(|watch| watch.see(&self.state().memory))
+                    watch.as_mut().is_some_and(|watch| watch.see(&self.state().memory)) && self.failure.is_none()
                 }
             };
             if is_met {

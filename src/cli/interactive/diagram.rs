@@ -37,7 +37,8 @@ pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let from = (scans.len() + 1).saturating_sub(cells);
     let columns = from..=scans.len();
     // A number may take the cells of scans that have none.
-    let every = if cell < 4 { 5 } else { 1 };
+    let digits = scans.len().to_string().len();
+    let every = [1, 5, 10].into_iter().find(|every| every * cell > digits + 1).unwrap_or(50);
     let numbered = columns.clone().filter(|scan| scan % every == 0);
     let ruler = numbered.fold(String::new(), |ruler, scan| format!("{ruler:0$}{scan}", (scan - from) * cell));
     let head = Line::from(format!("{:names$} {ruler}", "scan")).dim();

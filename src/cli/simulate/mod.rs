@@ -17,6 +17,7 @@ use super::args::{Format, Simulate};
 use super::console::Console;
 use super::input::Program;
 use super::interactive::Screen;
+use super::report::counted;
 use super::{Failure, Outcome, SUCCESS, input, interactive, output};
 use scans::{Run, scans};
 use steering::Steering;
@@ -121,7 +122,8 @@ fn print(
     console: &Console,
 ) -> Result<(), Failure> {
     let trace = &run.trace;
-    let title = format!("{} from {}, {} scans", system.program.name, source.name(), trace.scans.len());
+    let scans = counted(trace.scans.len(), "scan");
+    let title = format!("{} from {}, {scans}", system.program.name, source.name());
     // A file has no width.
     let width = if arguments.output.is_some() { usize::MAX } else { console.output_width() };
     let mut text = show::text(system, trace, format, &title, width);

@@ -41,7 +41,9 @@ pub fn scans(
         if let Some(difference) = recorded.and_then(|run| run.difference(&system.program, position, &scan)) {
             return Err(difference);
         }
-        run.is_met = watch.as_mut().zip(scan.end.as_ref()).is_some_and(|(watch, end)| watch.see(&end.memory));
+        // What is left by a scan that goes wrong is not known.
+        let end = scan.end.as_ref().filter(|_| failure.is_none());
+        run.is_met = watch.as_mut().zip(end).is_some_and(|(watch, end)| watch.see(&end.memory));
         run.trace.scans.push(scan);
         run.failure = failure;
         if run.is_met || run.failure.is_some() {
