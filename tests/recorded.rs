@@ -12,10 +12,16 @@ use petril::explore::ScanState;
 use petril::flat::{FlatProgram, Tolerated};
 use petril::simulate::scan;
 use petril::translate::{Plant, System};
+use petril::verdict::Report;
 use petril::witness::Scan;
 use serde_json::{Value, json};
 use support::reports::report;
 use support::systems::system;
+
+/// The report as programs read it.
+fn document(system: &System, report: &Report) -> Value {
+    json::report(system, report, "p")
+}
 
 /// The run, made again; or where it differs.
 fn again(system: &System, run: &Recorded) -> Result<Vec<Scan>, String> {
@@ -58,7 +64,7 @@ fn every_run_of_the_examples() {
         let plants: Vec<&str> = plants.iter().map(String::as_str).collect();
         let system = system(&text, &plants);
         let report = report(&system, &requirements);
-        let document = json::report(&system, &report, program);
+        let document = document(&system, &report);
         let alone = System::new(system.program.clone(), Plant::default());
         for answer in report.answers.iter().chain(&report.checks) {
             let Some(witness) = answer.outcome.witness() else { continue };
@@ -86,8 +92,7 @@ const COUNTER: &str = "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR m : BOOL; END_V
 
 fn counted() -> (System, Value) {
     let system = system(COUNTER, &[]);
-    let document =
-        json::report(&system, &report(&system, "requirement few: AG (n < 3); requirement ok: AG (m <-> i);"), "p");
+    let document = document(&system, &report(&system, "requirement few: AG (n < 3); requirement ok: AG (m <-> i);"));
     (system, document)
 }
 
@@ -185,6 +190,15 @@ fn any_other_value_is_refused() {
     assert!(tried > 300, "{tried}");
 }
 
+/// A requirement that holds has an example at most, which is a run, too.
+#[test]
+fn an_example_is_made_again() {
+    let (system, document) = counted();
+    let mut held = document.clone();
+    held["requirements"][1]["example"] = document["requirements"][0]["trace"].clone();
+    assert_eq!(recorded(&held, Some("ok"), &system).unwrap().plans.len(), 3);
+}
+
 #[test]
 fn what_is_no_report_is_refused() {
     let (system, document) = counted();
@@ -207,7 +221,7 @@ fn what_is_no_report_is_refused() {
 fn another_plant_is_refused() {
     let net = |name: &str| format!("net button\npl {{i=0}} (1)\npl {{i=1}}\ntr {name} {{i=0}} -> {{i=1}}\n");
     let own = system(COUNTER, &[&net("press")]);
-    let document = json::report(&own, &report(&own, "requirement never: AG !m;"), "p");
+    let document = document(&own, &report(&own, "requirement never: AG !m;"));
     let run = recorded(&document, None, &own).unwrap();
     assert_eq!(again(&own, &run).unwrap().len(), 1);
     let other = system(COUNTER, &[&net("push")]);
@@ -226,7 +240,7 @@ fn another_plant_is_refused() {
 fn a_loop_goes_on() {
     let text = "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD i\nST q\nEND_PROGRAM";
     let system = system(text, &[]);
-    let document = json::report(&system, &report(&system, "requirement r: AF AG q;"), "p");
+    let document = document(&system, &report(&system, "requirement r: AF AG q;"));
     let run = recorded(&document, None, &system).unwrap();
     let start = run.loop_start.unwrap();
     let around = run.plans.len() - 1 - start;

@@ -44,7 +44,7 @@ pub fn recorded(report: &Value, requirement: Option<&str>, system: &System) -> R
         return Err("this is no report of `petril check --json`, or one without requirements".to_owned());
     }
     let name = |answer: &Value| answer["name"].as_str().unwrap_or_default().to_owned();
-    let has_run = |answer: &&&Value| answer["trace"]["kind"] == "scans";
+    let has_run = |answer: &&&Value| run(answer)["kind"] == "scans";
     let answer = match requirement {
         Some(asked) => answers.iter().find(|answer| name(answer).eq_ignore_ascii_case(asked)).ok_or_else(|| {
             let names: Vec<String> = answers.iter().map(|answer| name(answer)).collect();
@@ -58,7 +58,7 @@ pub fn recorded(report: &Value, requirement: Option<&str>, system: &System) -> R
             )?
         }
     };
-    let (name, trace) = (name(answer), &answer["trace"]);
+    let (name, trace) = (name(answer), run(answer));
     let scans = match (trace["kind"].as_str(), trace["scans"].as_array()) {
         (Some("scans"), Some(scans)) => scans,
         (Some("firings"), _) => {
@@ -125,6 +125,11 @@ impl Recorded {
         let text = |pattern| program.value_text(id, pattern);
         differs(format!("`{}` becomes {}, and {} in the report", program.variable(id).name, text(made), text(recorded)))
     }
+}
+
+/// The run that goes with an answer: what breaks the requirement or shows it, or else an example of its premise.
+fn run(answer: &Value) -> &Value {
+    if answer["trace"].is_null() { &answer["example"] } else { &answer["trace"] }
 }
 
 /// A note; scans count from 1 in reports.
