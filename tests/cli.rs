@@ -8,6 +8,7 @@ fn sessions_go_as_shown() {
         .case("docs/requirements.md")
         .case("docs/examples.md")
         .case("docs/nets.md")
+        .case("docs/simulation.md")
         .env("RUST_BACKTRACE", "0")
         .env("LC_ALL", "C.UTF-8");
 }

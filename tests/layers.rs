@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A module may use only modules to its left. `docs/architecture.md` says why each stands where it does.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "source",
     "diagnostic",
     "xml",
@@ -21,6 +21,7 @@ const ORDER: [&str; 18] = [
     "explore",
     "logic",
     "witness",
+    "simulate",
     "verdict",
     "draw",
     "exchange",
@@ -110,7 +111,7 @@ fn some_things_are_done_in_one_place_only() {
         (&["std::fs", "stdout", "stderr", "stdin", "println!", "print!("], &["cli"]),
         (&["Instant", "SystemTime"], &["cli"]),
         (&["pest_derive", "pest::Parser"], &["syntax", "logic", "exchange"]),
-        (&["interpret::Machine"], &["interpret", "explore", "witness", "cli"]),
+        (&["interpret::Machine"], &["interpret", "explore", "witness", "simulate"]),
     ];
     for module in ORDER {
         for (path, text) in files(module) {

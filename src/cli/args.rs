@@ -178,21 +178,63 @@ pub struct Flat {
 }
 
 /// `petril simulate`
+///
+/// Without inputs, all keep their initial values. Results go to standard output, what is told about them to standard error.
 #[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Examples:
+  petril simulate press.il --inputs press.csv
+  petril simulate press.il --plant buttons.net --random 7 --until 'Down & !Left' --by-line 12
+  petril simulate press.il --random --scans 500 -o press.vcd
+  petril check press.il --require press.req --json > report.json
+  petril simulate press.il --replay report.json --requirement both_hands --interactive
+
+Exit codes: 0 done, and the condition of --until was met; 1 it was not met, or a scan went wrong; 2 bad usage or input.")]
 pub struct Simulate {
     /// The program: Instruction List, or a PLCopen project in XML.
     #[arg(value_name = "PROGRAM")]
     pub program: PathBuf,
     /// Values of the inputs (CSV): names in the first row, then one row a scan. Inputs without a column keep their initial
     /// value.
-    #[arg(long, value_name = "CSV")]
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["random", "replay", "plant"])]
     pub inputs: Option<PathBuf>,
-    /// How many scans; if not given, one for each row of inputs, or 10. Beyond the last row, inputs stay as they are.
+    /// Inputs, and moves of the plant, by chance. The same seed gives the same run; without one, the seed is told.
+    #[arg(long, value_name = "SEED", num_args = 0..=1, conflicts_with = "replay")]
+    pub random: Option<Option<u64>>,
+    /// The run of a report that `petril check --json` made: the same inputs, and with --plant the same moves of the plant. It
+    /// is an error if anything becomes another value than in the report.
+    #[arg(long, value_name = "REPORT.json")]
+    pub replay: Option<PathBuf>,
+    /// The requirement of the report whose run it is; if not given, the first that is violated.
+    #[arg(long, value_name = "NAME", requires = "replay")]
+    pub requirement: Option<String>,
+    /// A plant, as for `petril check`: it moves by chance (--random), as it did (--replay), or as you say (--interactive). May
+    /// be given several times.
+    #[arg(long, value_name = "NET")]
+    pub plant: Vec<PathBuf>,
+    /// What an input can be that no plant drives, as for `petril check`. May be given several times.
+    #[arg(long, value_name = "DOMAIN", conflicts_with_all = ["inputs", "replay"])]
+    pub domain: Vec<String>,
+    /// How many scans; if not given, one for each row of inputs or scan of the report, or 10, or 1000 with --until. Beyond the
+    /// last row, inputs stay as they are; a run of the report that goes on for ever does so.
     #[arg(long, value_name = "N")]
     pub scans: Option<usize>,
-    /// How to print.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    pub format: Format,
+    /// Stop after the first scan in which this is so: a formula without temporal operators, like `Bottles > 200 & !Full` or
+    /// `rising(Motor)`.
+    #[arg(long, value_name = "CONDITION", visible_alias = "break", allow_hyphen_values = true)]
+    pub until: Option<String>,
+    /// How to print; if not given, as the ending of the file says (.csv, .vcd), or a table.
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// Tell a scan line by line below the table, with the current result.
+    #[arg(long, value_name = "SCAN")]
+    pub by_line: Option<usize>,
+    /// Write to a file, which appears whole or not at all.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Step through the run in the terminal, forward and back, by scans, lines and transitions, and choose inputs by key.
+    #[arg(short, long, conflicts_with_all = ["output", "format", "by_line", "until", "scans"])]
+    pub interactive: bool,
     /// What the program means on its PLC.
     #[command(flatten)]
     pub meaning: Meaning,
@@ -201,10 +243,12 @@ pub struct Simulate {
 /// Forms of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// A table for people.
+    /// A table for people, in blocks of columns if the terminal is narrow.
     Table,
     /// First column `cycle`, then every variable.
     Csv,
+    /// A value change dump for waveform viewers.
+    Vcd,
 }
 
 /// `petril draw`

@@ -105,6 +105,11 @@ impl Console {
         };
         if self.output_in_colour { format!("\u{1b}[1;{code}m{word}\u{1b}[0m") } else { word.to_owned() }
     }
+
+    /// Whether results may have colours.
+    pub fn output_in_colour(&self) -> bool {
+        self.output_in_colour
+    }
 }
 
 /// What a colour means.

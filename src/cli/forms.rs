@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif};
-use petril::verdict::Trace;
+use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif, vcd};
+use petril::verdict::{Answer, Trace};
 
 use super::{Failure, output, reason};
 
@@ -28,6 +28,9 @@ pub struct Forms {
     /// Write the inputs of each counterexample into this folder, as tables that `petril simulate --inputs` reads.
     #[arg(long, value_name = "FOLDER", help_heading = "Files")]
     pub trace_csv: Option<PathBuf>,
+    /// Write each counterexample into this folder as a value change dump (VCD), for waveform viewers (scan view).
+    #[arg(long, value_name = "FOLDER", help_heading = "Files")]
+    pub vcd: Option<PathBuf>,
 }
 
 /// Writes what was asked for. Each file is whole, or is not there.
@@ -52,7 +55,15 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
         output::write_text(file, &report_csv::write(checked))?;
     }
     if let Some(folder) = &forms.trace_csv {
-        each_counterexample(folder, "csv", checked, |trace| report_csv::inputs(checked.system, trace))?;
+        each_counterexample(folder, "csv", checked, |_, trace| Some(report_csv::inputs(checked.system, trace)))?;
+    }
+    if let Some(folder) = &forms.vcd {
+        each_counterexample(folder, "vcd", checked, |answer, trace| match trace {
+            Trace::Scans(trace) => {
+                Some(vcd::write(checked.system, trace, &format!("{}: {}", answer.name, answer.formula)))
+            }
+            Trace::Firings(_) => None,
+        })?;
     }
     Ok(())
 }
@@ -62,7 +73,7 @@ fn each_counterexample(
     folder: &Path,
     ending: &str,
     checked: &Checked<'_>,
-    content: impl Fn(&Trace) -> String,
+    content: impl Fn(&Answer, &Trace) -> Option<String>,
 ) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| {
         Failure::Message(format!("cannot make the folder `{}`: {}", folder.display(), reason(&error)))
@@ -71,7 +82,9 @@ fn each_counterexample(
         for (_, witness) in runs(answer).filter(|(purpose, _)| *purpose == Purpose::Counterexample) {
             let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
             let name: String = answer.name.chars().map(plain).collect();
-            output::write_text(&folder.join(format!("{name}.{ending}")), &content(&witness.trace))?;
+            if let Some(content) = content(answer, &witness.trace) {
+                output::write_text(&folder.join(format!("{name}.{ending}")), &content)?;
+            }
         }
     }
     Ok(())

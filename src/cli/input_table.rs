@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use petril::diagnostic::{Code, Diagnostic};
 use petril::flat::{FlatProgram, Restriction};
 use petril::logic;
-use petril::semantics::{Role, Type, VarId};
+use petril::semantics::{Role, VarId};
 use petril::source::{Source, Span};
 use petril::syntax::ast::key;
 
@@ -63,22 +63,12 @@ pub fn read(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, u6
         let mut row = Vec::new();
         for (input, cell) in columns.iter().zip(&record) {
             let Some(input) = *input else { continue };
-            let ty = program.variable(input).ty;
-            let (least, greatest) = program.range(input);
-            let allowed = |pattern: &u64| (least..=greatest).contains(&ty.number(*pattern));
-            let named = program.enumerated(input, cell).map(|number| ty.pattern(number));
-            match named.or_else(|| value(ty, cell).filter(allowed)) {
+            match value(program, input, cell) {
                 Some(value) => row.push((input, value)),
                 None => {
-                    let message = format!("`{cell}` is no value of type `{ty}`");
-                    let help = if ty.is_bool() {
-                        "write 0 or 1".to_owned()
-                    } else if let Some(Restriction::Enumeration(names)) = program.restrictions.get(&input) {
-                        format!("write one of {}", names.join(", "))
-                    } else {
-                        format!("write a number from {least} to {greatest}")
-                    };
-                    errors.push(Diagnostic::new(Code::InputTable, line(record.position()), message).help(help));
+                    let message = format!("`{cell}` is no value of type `{}`", program.variable(input).ty);
+                    let problem = Diagnostic::new(Code::InputTable, line(record.position()), message);
+                    errors.push(problem.help(values(program, input)));
                 }
             }
         }
@@ -97,11 +87,24 @@ fn malformed(error: &csv::Error, span: Span) -> Diagnostic {
     Diagnostic::new(Code::InputTable, span, message).help("give each input one value, separated by commas")
 }
 
-/// A value of a type: TRUE, FALSE or a number; times count milliseconds or are literals.
-fn value(ty: Type, cell: &str) -> Option<u64> {
-    match cell {
-        _ if ty.is_bool() && cell.eq_ignore_ascii_case("FALSE") => Some(0),
-        _ if ty.is_bool() && cell.eq_ignore_ascii_case("TRUE") => Some(1),
-        _ => logic::number(cell).ok().filter(|&number| ty.holds(number)).map(|number| ty.pattern(number)),
+/// What to write for a value of an input.
+pub fn values(program: &FlatProgram, input: VarId) -> String {
+    let (least, greatest) = program.range(input);
+    match program.restrictions.get(&input) {
+        _ if program.variable(input).ty.is_bool() => "write 0 or 1".to_owned(),
+        Some(Restriction::Enumeration(names)) => format!("write one of {}", names.join(", ")),
+        _ => format!("write a number from {least} to {greatest}"),
     }
+}
+
+/// A value of an input: TRUE, FALSE, a name, or a number; times count milliseconds or are literals.
+pub fn value(program: &FlatProgram, input: VarId, text: &str) -> Option<u64> {
+    let ty = program.variable(input).ty;
+    let (least, greatest) = program.range(input);
+    let number = match text {
+        _ if ty.is_bool() && text.eq_ignore_ascii_case("FALSE") => Some(0),
+        _ if ty.is_bool() && text.eq_ignore_ascii_case("TRUE") => Some(1),
+        _ => program.enumerated(input, text).or_else(|| logic::number(text).ok()),
+    };
+    number.filter(|number| (least..=greatest).contains(number)).map(|number| ty.pattern(number))
 }

@@ -12,6 +12,7 @@ mod format;
 mod forms;
 mod input;
 mod input_table;
+mod interactive;
 mod meaning;
 mod net_check;
 mod net_convert;

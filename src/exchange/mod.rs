@@ -18,10 +18,12 @@ pub mod junit;
 pub mod lola;
 pub mod mcc;
 pub mod pnml;
+pub mod recorded;
 pub mod report_csv;
 pub mod sarif;
 pub mod tapaal;
 pub mod tina;
+pub mod vcd;
 
 pub use checked::{Checked, Purpose, runs};
 pub use escape::unescaped;

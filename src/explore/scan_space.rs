@@ -51,6 +51,17 @@ pub struct ScanState {
     pub memory: Vec<u64>,
 }
 
+impl ScanState {
+    /// A system at power-on, before the first scan. It is no state of the scan view.
+    #[must_use]
+    pub fn power_on(system: &System) -> Self {
+        Self {
+            plant: vec![0; system.plant.components.len()],
+            memory: system.program.variables.iter().map(|variable| variable.initial).collect(),
+        }
+    }
+}
+
 /// One scan that was computed.
 #[derive(Clone, Copy, Debug)]
 pub struct ScanRun<'a> {
@@ -134,10 +145,7 @@ impl<'s> ScanSpace<'s> {
     /// The system at power-on, before the first scan. It is no scan state.
     #[must_use]
     pub fn power_on(&self) -> ScanState {
-        ScanState {
-            plant: vec![0; self.components.len()],
-            memory: self.system.program.variables.iter().map(|variable| variable.initial).collect(),
-        }
+        ScanState::power_on(self.system)
     }
 
     /// The same packed.

@@ -17,6 +17,11 @@ impl Marking {
         self.0.contains(place.index())
     }
 
+    /// Gives a place its token, or takes it.
+    pub(crate) fn put(&mut self, place: PlaceId, is_marked: bool) {
+        self.0.set(place.index(), is_marked);
+    }
+
     /// The marked places, in ascending order.
     pub fn marked(&self) -> impl Iterator<Item = PlaceId> {
         self.0.ones().map(PlaceId::at)

@@ -68,6 +68,16 @@ impl System {
         Self { program, plant, domains, net, places, transitions, lines, within, variables, result, moves }
     }
 
+    /// A program and its plant for those who run scans and ask for nothing else: the net, which may take longer than thousands
+    /// of scans, is empty.
+    #[must_use]
+    pub fn without_net(program: FlatProgram, plant: Plant, mut domains: Domains) -> Self {
+        declared_domains(&program, &plant, &mut domains);
+        let Woven { net, places, transitions, variables, result } = Weaver::new(&program.name).build();
+        let (lines, within, moves) = (Vec::new(), Vec::new(), OnceLock::new());
+        Self { program, plant, domains, net, places, transitions, lines, within, variables, result, moves }
+    }
+
     /// The place of a role that only one place has, if there is one. Not every line has a place for each of its hazards:
     /// none if it cannot happen there.
     #[must_use]

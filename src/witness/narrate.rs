@@ -1,7 +1,7 @@
 //! Traces told in the terms of the program: a table of scans, and the instructions of a scan with the current result.
 
 use super::firing_trace::FiringTrace;
-use super::scan_trace::{Scan, ScanTrace};
+use super::scan_trace::ScanTrace;
 use super::story::story;
 use super::table::{Column, Table};
 use crate::flat::value_text;
@@ -47,18 +47,12 @@ pub fn marked_scan_table(system: &System, trace: &ScanTrace, is_marked: &dyn Fn(
             row.push(if unknown { "?".to_owned() } else { format!("{mark}{star}{value}") });
         }
         if has_moves {
-            row.push(moves(system, scan));
+            row.push(scan.done(system));
         }
         table.row(row);
         before = memory;
     }
     table
-}
-
-/// The plant's transitions before a scan, by name.
-fn moves(system: &System, scan: &Scan) -> String {
-    let names = scan.moves.iter().map(|m| system.plant.components[m.component].transitions[m.transition].name.as_str());
-    names.collect::<Vec<_>>().join(", ")
 }
 
 /// The instructions a scan of the trace executes, each with the current result after it, the variable it changed,

@@ -2,11 +2,12 @@
 
 use std::fmt;
 
+use crate::explore::ScanState;
 use crate::flat::Hazard;
 use crate::interpret::Machine;
 use crate::logic::{Bound, Valuation};
 use crate::net::{Marking, PlaceId, TransitionId};
-use crate::semantics::{Role, VarId};
+use crate::semantics::{Role, Type, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
 
 /// Net, interpreter and search do not tell the same story. One of them is wrong, so there is no verdict.
@@ -27,8 +28,8 @@ pub struct Replay<'s> {
     /// The place where control is.
     control: PlaceId,
     machine: Machine<'s>,
-    /// How many bits of the current result have a meaning: as many as the last instruction gave it.
-    width: u32,
+    /// What the last instruction gave the current result: so many of its bits have a meaning.
+    given: Type,
     /// The hazards whose places control has passed within this line.
     passed: Vec<Hazard>,
     /// The hazards met since the scan began, each with its line.
@@ -44,10 +45,50 @@ impl<'s> Replay<'s> {
             marking: system.net.initial_marking(),
             control: system.place(PlaceRole::Idle),
             machine: Machine::new(&system.program),
-            width: 1,
+            given: Type::BOOL,
             passed: Vec::new(),
             hazards: Vec::new(),
         }
+    }
+
+    /// The run that goes on from the end of a scan, control in `idle`.
+    #[must_use]
+    pub fn after(system: &'s System, state: &ScanState) -> Self {
+        let mut replay = Self::new(system);
+        replay.machine.restore(&state.memory);
+        for (variable, &value) in (0..).map(VarId).zip(&state.memory) {
+            for (bit, places) in system.bits(variable).enumerate() {
+                replay.marking.put(places[0], value >> bit & 1 == 0);
+                replay.marking.put(places[1], value >> bit & 1 == 1);
+            }
+        }
+        let mut positions = vec![0; state.plant.len()];
+        for place in system.net.place_ids() {
+            if let PlaceRole::Plant(component) = system.places[place.index()] {
+                let marking = &system.plant.components[component].markings[state.plant[component]];
+                replay.marking.put(place, marking.marked.binary_search(&positions[component]).is_ok());
+                positions[component] += 1;
+            }
+        }
+        replay
+    }
+
+    /// What the place stands for where control is.
+    #[must_use]
+    pub fn control(&self) -> PlaceRole {
+        self.system.places[self.control.index()]
+    }
+
+    /// The current result as the interpreter has it, with the type that the last instruction gave it.
+    #[must_use]
+    pub fn typed_result(&self) -> (Type, u64) {
+        (self.given, self.machine.result() & self.given.mask())
+    }
+
+    /// The transitions that take control on from where it is, enabled or not.
+    #[must_use]
+    pub fn ways(&self) -> &'s [TransitionId] {
+        self.system.moves(self.control)
     }
 
     /// The marking reached.
@@ -117,8 +158,7 @@ impl<'s> Replay<'s> {
 
     /// The interpreter executes the line that the net has come to the end of. Both must have met the same hazard.
     fn execute(&mut self, line: usize) -> Result<(), Disagreement> {
-        let given = self.system.program.code[line].instruction.gives();
-        self.width = given.map_or(self.width, |ty| ty.width);
+        self.given = self.system.program.code[line].instruction.gives().unwrap_or(self.given);
         let met: Vec<Hazard> = self.machine.step().into_iter().collect();
         let passed = std::mem::take(&mut self.passed);
         self.hazards.extend(met.iter().map(|&hazard| (line, hazard)));
@@ -164,8 +204,8 @@ impl<'s> Replay<'s> {
                 return Err(format!("`{}`", program.variable(variable).name));
             }
         }
-        let meant = u64::MAX >> (64 - self.width);
-        if self.system.result(self.width, is_marked) != Some(self.machine.result() & meant) {
+        let (given, result) = self.typed_result();
+        if self.system.result(given.width, is_marked) != Some(result) {
             return Err("the current result".to_owned());
         }
         // Before the program runs, control is in the system program.

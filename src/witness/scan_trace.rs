@@ -34,6 +34,15 @@ pub struct Scan {
     pub hazard: Option<(usize, Hazard)>,
 }
 
+impl Scan {
+    /// What the plant did before it: the names of its transitions.
+    #[must_use]
+    pub fn done(&self, system: &System) -> String {
+        let names = self.moves.iter().map(|chosen| chosen.name(system));
+        names.collect::<Vec<_>>().join(", ")
+    }
+}
+
 /// A firing of the plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlantMove {
@@ -41,6 +50,14 @@ pub struct PlantMove {
     pub component: usize,
     /// Position in its list of transitions.
     pub transition: usize,
+}
+
+impl PlantMove {
+    /// The name of the transition.
+    #[must_use]
+    pub fn name(self, system: &System) -> &str {
+        &system.plant.components[self.component].transitions[self.transition].name
+    }
 }
 
 /// The trace along packed scan states, as [`scan_trace`] makes it, and one more scan: the first from there that `pick` picks.

@@ -23,6 +23,7 @@ pub mod random_wide_value;
 pub mod reference;
 pub mod refined_net;
 pub mod reports;
+pub mod runs;
 pub mod systems;
 pub mod token_game;
 

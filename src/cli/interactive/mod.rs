@@ -1,0 +1,56 @@
+//! `petril simulate --interactive`: a run under somebody's hands, in the terminal.
+//!
+//! A [`Screen`] takes keys and says what there is to see; nothing but this file knows the terminal.
+
+mod diagram;
+mod draw;
+mod keys;
+mod overlay;
+mod screen;
+mod source_pane;
+mod tokens;
+mod variables;
+
+#[cfg(test)]
+mod tests;
+
+use std::io::{self, IsTerminal};
+use std::process::ExitCode;
+
+use ratatui::crossterm::event::{self, Event, KeyEventKind};
+use ratatui::crossterm::style;
+
+use super::console::Console;
+use super::{Failure, Outcome, reason};
+use keys::Flow;
+pub use screen::Screen;
+
+/// Shows a run until its user has seen enough.
+pub fn run(mut screen: Screen<'_>, console: &Console) -> Outcome {
+    if !io::stdin().is_terminal() || !io::stdout().is_terminal() {
+        let message = "--interactive needs a terminal, for keys and for what it shows";
+        return Err(Failure::Message(message.to_owned()));
+    }
+    style::force_color_output(console.output_in_colour());
+    // A signal ends the program without unwinding. If nobody can be told, it does so as usual.
+    let _ = ctrlc::set_handler(|| {
+        ratatui::restore();
+        std::process::exit(130);
+    });
+    let outcome = show(&mut screen);
+    ratatui::restore();
+    outcome.map_err(|error| Failure::Message(format!("cannot use the terminal: {}", reason(&error))))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Draws, and waits for a key, again and again. A panic restores the terminal before it says anything.
+fn show(screen: &mut Screen<'_>) -> io::Result<()> {
+    let mut terminal = ratatui::try_init()?;
+    loop {
+        terminal.draw(|frame| draw::draw(frame, screen))?;
+        match event::read()? {
+            Event::Key(key) if key.kind != KeyEventKind::Release && screen.press(key) == Flow::End => return Ok(()),
+            _ => {}
+        }
+    }
+}
