@@ -38,8 +38,9 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let (Program { flat, source }, plant) =
         input::parts(&arguments.program, &arguments.plant, &arguments.meaning.reading, console)?;
     let domains = steering::domains(&arguments.domain, &flat, &plant, console)?;
-    // Only who steps through the net needs it.
-    let compose = if arguments.interactive { System::with_domains } else { System::without_net };
+    // Only who steps through the net needs it, and whoever tells a scan line by line, which plays it there, too.
+    let is_played = arguments.interactive || arguments.by_line.is_some();
+    let compose = if is_played { System::with_domains } else { System::without_net };
     let system = compose(flat, plant, domains);
     let until = arguments.until.as_ref().map(|text| until(text, &system, console)).transpose()?;
     let mut steering = Steering::of(arguments, &system, console)?;
