@@ -527,7 +527,13 @@ proptest! {
                     }
                     check_parts(&space, &trace, &formula, repair)?;
                 }
-                None => prop_assert!(smallest.is_none_or(|smallest| smallest > 4), "{:?} {:?}", smallest, why.unrepaired),
+                // What several runs show together is not shown by the run as it is.
+                None => prop_assert!(
+                    smallest.is_none_or(|smallest| smallest == 0 || smallest > 4),
+                    "{:?} {:?}",
+                    smallest,
+                    why.unrepaired
+                ),
             }
             prop_assert!(!why.wanted.is_empty());
         }

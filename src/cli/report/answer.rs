@@ -101,7 +101,10 @@ impl Text<'_> {
             if details {
                 let plain = self.arguments.ascii || !self.console.has_unicode();
                 let pen = if plain { &ASCII } else { &UNICODE };
-                out += &format!("\n{}", indent(&diagram(self.system, trace, self.width(), pen)));
+                let drawn = indent(&diagram(self.system, trace, self.width(), pen));
+                if !drawn.is_empty() {
+                    out += &format!("\n{drawn}");
+                }
             }
             if by_line {
                 let last = trace.scans.len() - 1;

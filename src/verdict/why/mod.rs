@@ -6,7 +6,7 @@ mod repair;
 mod rerun;
 mod wanted;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::views::SystemView;
 use super::{Trace, Why, Witness, Writer};
@@ -50,12 +50,13 @@ pub fn why(broken: Broken<'_>, witness: &Witness) -> Option<Why> {
 fn writers(space: &ScanSpace<'_>, trace: &ScanTrace, literals: &[(usize, VarId)]) -> (Vec<Writer>, Vec<VarId>) {
     let program = &space.system().program;
     let (mut writers, mut unwritten) = (Vec::new(), Vec::new());
-    let mut seen = BTreeSet::new();
+    let (mut seen, mut known) = (BTreeSet::new(), BTreeMap::new());
     for &(position, variable) in literals {
         if program.variable(variable).role == Role::Input || !seen.insert((position, variable)) {
             continue;
         }
-        match last_writes(space.system(), trace, position)[variable.0] {
+        let last = known.entry(position).or_insert_with(|| last_writes(space.system(), trace, position));
+        match last[variable.0] {
             Some(write) => writers.push(Writer { variable, value: write.value, scan: write.scan, line: write.line }),
             None => unwritten.push(variable),
         }
