@@ -11,7 +11,7 @@ function timingDiagram(playback, { matters, notes, seek }) {
   let whole = all.length <= 16 || some.length === 0;
 
   const names = html("div", { class: "lane-names" });
-  const box = html("div", { class: "lane-box", tabindex: "-1" });
+  const box = html("div", { class: "lane-box", tabindex: "0", role: "group", "aria-label": "Waves" });
   const element = html("div", { class: "lanes" }, names, box);
   const more = all.length > some.length && some.length > 0
     ? html("button", { type: "button", class: "link", "aria-pressed": String(whole), onclick: () => {
