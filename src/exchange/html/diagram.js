@@ -35,7 +35,7 @@ function timingDiagram(playback, { matters, notes, seek }) {
     }
     const least = playback.run.kind === "scans" ? Math.max(44, Math.min(84, longest * 6.7 + 14)) : 20;
     // Where one can look into the scans they may be wide.
-    const most = playback.length > 2 * columns ? 420 : 120;
+    const most = playback.length > 2 * columns ? 640 : 120;
     width = paper ? Math.min(most, paper / columns) : Math.min(most, Math.max(least, (box.clientWidth - 2) / columns));
     const total = Math.ceil(width * columns) + 1, height = HEAD + LANE * lanes.length + 4;
     const grid = [], waves = [];
