@@ -65,6 +65,7 @@ Formulas are CTL: AG EF AX EX AF EG, A [p U q], E [p U q] and W (weak until) ove
 Examples:
   petril check press.il -r 'AG (Down -> Left & Right)'
   petril check press.il --plant buttons.net --require press.req --json
+  petril check press.il --require press.req --html press.html --junit press.xml
   petril check press.il --view transition -r 'AG (at line 3 -> CuttingAllowed)'
 
 A requirement file:

@@ -52,6 +52,8 @@ pub fn situations() -> Vec<(i32, Vec<String>)> {
         (1, format!("{switch} --view transition"), vec!["AF Output", "AG !at line 3", "EF Output"]),
         (0, format!("{switch} --view transition --fair"), vec!["AF at line 3"]),
         (3, format!("{switch} --max-states 3"), vec!["AG !Step_2", "EF Output"]),
+        // Patterns, tags, an assumption, an assertion in the program, a premise that never comes.
+        (1, "check tests/forms/gate.il --require tests/forms/gate.req".to_owned(), vec![]),
         // Errors of arithmetic.
         (1, tank.to_owned(), vec![]),
         (1, format!("{tank} --by-line"), vec!["AG TRUE"]),

@@ -11,7 +11,7 @@ function timingDiagram(playback, { matters, notes, seek }) {
   let whole = all.length <= 16 || some.length === 0;
 
   const names = html("div", { class: "lane-names" });
-  const box = html("div", { class: "lane-box", tabindex: "-1" });
+  const box = html("div", { class: "lane-box", tabindex: "0", role: "group", "aria-label": "Waves" });
   const element = html("div", { class: "lanes" }, names, box);
   const more = all.length > some.length && some.length > 0
     ? html("button", { type: "button", class: "link", "aria-pressed": String(whole), onclick: () => {
@@ -35,7 +35,7 @@ function timingDiagram(playback, { matters, notes, seek }) {
     }
     const least = playback.run.kind === "scans" ? Math.max(44, Math.min(84, longest * 6.7 + 14)) : 20;
     // Where one can look into the scans they may be wide.
-    const most = playback.length > 2 * columns ? 420 : 120;
+    const most = playback.length > 2 * columns ? 640 : 120;
     width = paper ? Math.min(most, paper / columns) : Math.min(most, Math.max(least, (box.clientWidth - 2) / columns));
     const total = Math.ceil(width * columns) + 1, height = HEAD + LANE * lanes.length + 4;
     const grid = [], waves = [];

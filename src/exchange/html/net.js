@@ -46,7 +46,7 @@ function tokenGame(picture) {
     heads, arcs, places, [...boxes.values()].map((box) => box.shape), texts, moving);
   // It may shrink to fit, but not so far that names cannot be read; it never grows.
   drawing.style.minWidth = `${Math.min(width, Math.max(0.7 * width, 360))}px`;
-  const element = html("div", { class: "net-box", tabindex: "-1" }, drawing);
+  const element = html("div", { class: "net-box", tabindex: "0", role: "group", "aria-label": "Net" }, drawing);
   let glowing = [];
 
   // Shows a marking and what fired to reach it; `move` lets the tokens go there.

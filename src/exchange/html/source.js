@@ -16,7 +16,7 @@ function listing() {
     rows.set(number, { row, note });
     body.append(row);
   });
-  const element = html("div", { class: "source-box", tabindex: "0", role: "region", "aria-label": "Program text" }, body);
+  const element = html("div", { class: "source-box", tabindex: "0", role: "group", "aria-label": "Program text" }, body);
   let touched = [];
 
   function show(playback, index) {

@@ -55,11 +55,16 @@ function buildStage(answer, run) {
     html("div", { class: "pair" },
       card("Program", source.element, "program"),
       html("div", { class: "stack" },
-        card(scans ? "Scans" : "Firings", table.element, "scans"),
+        card(scans ? "Scans" : "Firings", table.element, "scans", scans && legend()),
         hasNets && card(netTitle, netPlace, "instruction"))),
     hasNets
       ? card("PLC cycle and plant", surroundings(), "cycle")
       : html("p", { class: "hint" }, "This run is too long for the token game to be part of the page."));
+
+  function legend() {
+    return html("span", { class: "legend" }, html("span", {}, html("i", { class: "is-changed" }), "changed"),
+      matters.size > 0 && html("span", {}, html("i", { class: "is-matters" }), "matters"));
+  }
 
   // The cycle, and beside it the components of the plant.
   function surroundings() {

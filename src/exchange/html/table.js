@@ -36,7 +36,7 @@ function scanTable(playback, matters, seek) {
         repeats ? `${k + 1} = ${run.loop + 1}` : String(k + 1))),
       cells, hasMoves && html("td", { class: "begins moves" }, scan.moves.join(", ")));
   });
-  const element = html("div", { class: "table-box", tabindex: "0", role: "region", "aria-label": "Scans" },
+  const element = html("div", { class: "table-box", tabindex: "0", role: "group", "aria-label": "Scans" },
     html("table", { class: "run-table" }, html("thead", {}, first, second), html("tbody", {}, rows)));
   return { element, show: (tick) => markRow(element, rows, tick.scan) };
 }
@@ -55,7 +55,7 @@ function firingTable(playback, seek) {
   const head = html("tr", {}, ["firing", "scan", "transition", "instruction", "variable"].map((name, i) =>
     html("th", { scope: "col", class: i > 1 ? "text" : undefined }, name)));
   const all = [start, ...rows];
-  const element = html("div", { class: "table-box", tabindex: "0", role: "region", "aria-label": "Firings" },
+  const element = html("div", { class: "table-box", tabindex: "0", role: "group", "aria-label": "Firings" },
     html("table", { class: "run-table" }, html("thead", {}, head), html("tbody", {}, all)));
   return { element, show: (tick, index) => markRow(element, all, index) };
 }
