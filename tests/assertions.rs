@@ -110,6 +110,23 @@ END_PROGRAM
     assert_eq!(trace.scans.len(), 2, "In is on in the first scan, and Out still in the second");
 }
 
+#[test]
+fn too_many_inputs_are_no_answer() {
+    let text = "PROGRAM p
+VAR_INPUT A, B : DINT; END_VAR
+VAR_OUTPUT Out : DINT; END_VAR
+    LD A
+    ADD B
+//@ assert A < 3;
+    ST Out
+END_PROGRAM
+";
+    let system = System::new(program(text), Plant::default());
+    let answers = answers(&system, View::Scan, asserted(text, &system).unwrap());
+    let Outcome::Unknown(reason) = &answers[0].outcome else { panic!("{answers:?}") };
+    assert!(reason.contains("more than 16777216 combinations"), "{reason}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 150, ..ProptestConfig::default() })]
 

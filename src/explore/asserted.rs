@@ -1,12 +1,11 @@
 //! What holds whenever control comes to a line: every scan of a graph is run by the interpreter and looked at on the way.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::prelude::*;
 
 use super::coverage::starts;
 use super::graph::Graph;
 use super::scan_space::ScanSpace;
+use super::space::StateSpace;
 use crate::interpret::Machine;
 use crate::semantics::{Role, VarId};
 
@@ -31,20 +30,24 @@ const TOGETHER: usize = 64;
 type IsWrong<'a> = &'a (dyn Fn(usize, &dyn Fn(VarId) -> u64, &dyn Fn(VarId) -> u64) -> bool + Sync);
 
 /// Runs every scan of a graph, and asks `is_wrong` whenever control comes to one of the watched lines. For each watched line, the nearest scan in which the
-/// answer was yes; nothing at all if `stopping` is set meanwhile.
+/// answer was yes; nothing at all if `stopped` says so meanwhile, or no scan can
+/// be run.
 #[must_use]
 pub fn first_at_lines(
     space: &ScanSpace<'_>,
     graph: &Graph,
     lines: &[usize],
     is_wrong: IsWrong<'_>,
-    stopping: &AtomicBool,
+    stopped: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<Option<Seen>>> {
+    if space.refusal().is_some() {
+        return None;
+    }
     let mut found: Vec<Option<Seen>> = vec![None; lines.len()];
     let mut at: Vec<Vec<usize>> = vec![Vec::new(); space.system().program.end() + 1];
     lines.iter().enumerate().for_each(|(watched, &line)| at[line].push(watched));
     for states in starts(graph).chunks(TOGETHER * rayon::current_num_threads()) {
-        if stopping.load(Ordering::Relaxed) {
+        if stopped() {
             return None;
         }
         let one = |from: &Option<u32>| Runner { space, graph, at: &at, is_wrong }.scans(*from);

@@ -1,18 +1,16 @@
 //! Assertions in the scan view: every scan is run and looked at where control comes to their lines.
 
-use std::sync::atomic::AtomicBool;
-
 use super::failing::what_is_missing;
 use super::views::ScanView;
 use super::{Answer, Note, Outcome, Trace, Witness};
-use crate::explore::{ScanRun, Seen, first_at_lines};
+use crate::explore::{ScanRun, Seen, Stop, first_at_lines};
 use crate::logic::{Assertion, Bound, Moment};
 use crate::semantics::VarId;
 use crate::translate::PlaceRole;
 use crate::witness::{Disagreement, replay_lines, scan_trace_to};
 
 /// The answers to assertions.
-pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopping: &AtomicBool) -> Vec<Answer> {
+pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopped: &mut dyn FnMut() -> bool) -> Vec<Answer> {
     if assertions.is_empty() {
         return Vec::new();
     }
@@ -23,9 +21,14 @@ pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopping: &AtomicB
     let is_wrong = |position: usize, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64| {
         watched[position].0.formula.holds_in(&Moment { before, now }) != Some(true)
     };
-    let found = first_at_lines(&view.space, &view.graph, &lines, &is_wrong, stopping);
+    let found = first_at_lines(&view.space, &view.graph, &lines, &is_wrong, stopped);
     let outcome = |assertion: &Assertion| {
-        let Some(found) = &found else { return Outcome::Unknown("stopped before all scans were looked at".to_owned()) };
+        let Some(found) = &found else {
+            return Outcome::Unknown(match view.graph.stop() {
+                Stop::Complete => "the check was ended before all scans were looked at".to_owned(),
+                _ => what_is_missing(&view.graph),
+            });
+        };
         let own = |seen: &&Seen| std::ptr::eq(watched[seen.watched].0, assertion);
         // States are numbered by their distance; power-on comes before them.
         match found.iter().flatten().filter(own).min_by_key(|seen| seen.from) {

@@ -1,7 +1,5 @@
 //! A system and requirements to a report: one exploration, then every requirement on its graph.
 
-use std::sync::atomic::AtomicBool;
-
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
@@ -78,7 +76,7 @@ fn check_scans(
     let view = ScanView { space, graph, assumptions: &options.assumptions };
     let outcomes = outcomes(&view, requirements, options, watch);
     let ScanView { space, graph, .. } = &view;
-    let asserted = asserted::answers(&view, &options.assertions, &AtomicBool::new(false));
+    let asserted = asserted::answers(&view, &options.assertions, &mut || watch(&done(graph)).is_some());
     let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
     let hazards = hazards::checked(&system.program, options.tolerated)
         .map(|hazard| hazards::answer(hazard, hazards::on_scans(space, graph, hazard)));
