@@ -180,6 +180,10 @@ fn timed_trigger() {
         let sentence = format!("If In is true at the end of a cycle and stays so for {time}, Alarm will be true.");
         pattern([&short, &sentence], &three, &four, &["In", "Alarm"], &run);
     }
+    // As tools that speak of the "EoC" write it.
+    let short = "timed_trigger(In, 60 ms, Alarm)";
+    let eoc = "If In is true at the end of cycle (EoC), and stays true at EoC for 60 ms of time, Alarm will be true.";
+    pattern([short, eoc], &three, &four, &["In", "Alarm"], &run);
     let longer = [
         "timed_trigger(In, 61ms, Alarm)",
         "If In is true at the end of a scan and stays so for 61ms Alarm will be true.",

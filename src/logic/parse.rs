@@ -203,7 +203,7 @@ fn duration(pair: &Pair<'_, Rule>) -> Result<Duration, Diagnostic> {
     let amount = match part(pair, Rule::scans).and_then(|scans| part(&scans, Rule::count)) {
         Some(count) => Amount::Scans(count.as_str().parse().map_err(|_| unfit("this number is too large".to_owned()))?),
         None => {
-            let number = literal::number(&literal::time(text)).map_err(unfit)?;
+            let number = literal::number(&literal::time(&text.split_whitespace().collect::<String>())).map_err(unfit)?;
             Amount::Milliseconds(u64::try_from(number).map_err(|_| unfit("this is no time from now on".to_owned()))?)
         }
     };
@@ -363,7 +363,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::plant_word => "`plant`",
         Rule::scan_word => "`scan time`",
         Rule::assert_word => "`assert`",
-        Rule::duration | Rule::scans | Rule::time | Rule::count => "a time or a number of scans",
+        Rule::duration | Rule::scans | Rule::spaced | Rule::time | Rule::count => "a time or a number of scans",
         Rule::word | Rule::tag => "a word",
         Rule::range | Rule::based => "a number",
         Rule::identifier => "a name",
