@@ -110,6 +110,7 @@ fn forms(arguments: &[String]) -> (Run, tempfile::TempDir) {
         ("--sarif", "report.sarif"),
         ("--csv", "report.csv"),
         ("--trace-csv", "traces"),
+        ("--vcd", "waves"),
         ("--html", "report.html"),
     ] {
         arguments.extend([option.to_owned(), folder.path().join(file).display().to_string()]);
@@ -172,7 +173,10 @@ fn every_form_is_valid_and_says_the_same() {
             assert_eq!((&row[1], &row[2]), (answer["name"].as_str().unwrap(), answer["verdict"].as_str().unwrap()));
             assert_eq!(&row[12], answer["formula"].as_str().unwrap());
         }
-        assert_eq!(fs::read_dir(folder.path().join("traces")).unwrap().count(), with("violated"), "{what}");
+        let files = |name: &str| fs::read_dir(folder.path().join(name)).unwrap().count();
+        let scans = |answer: &&Value| answer["verdict"] == "violated" && answer["trace"]["kind"] == "scans";
+        assert_eq!(files("traces"), with("violated"), "{what}");
+        assert_eq!(files("waves"), answers.iter().filter(scans).count(), "{what}");
     }
 }
 
