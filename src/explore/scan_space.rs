@@ -8,6 +8,7 @@
 //! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use serde::{Deserialize, Serialize};
 
 use super::circuit::Circuit;
 use super::free_inputs::FreeInputs;
@@ -43,7 +44,7 @@ pub struct ScanSpace<'s> {
 }
 
 /// A scan state in plain form.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanState {
     /// The marking of each plant component, as a position in its list of markings.
     pub plant: Vec<usize>,

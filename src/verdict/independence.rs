@@ -1,13 +1,14 @@
 //! Requirements that hold whatever the program does.
 
 use std::collections::BTreeMap;
+use serde::{Deserialize, Serialize};
 
 use crate::logic::{Assumption, Bound};
 use crate::semantics::Role;
 use crate::translate::System;
 
 /// On what a requirement that holds does not depend.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Independence {
     /// It is true of every system, as `a | !a` is.
     OfEverything,
