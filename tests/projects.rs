@@ -12,6 +12,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
+use support::document::replay;
 use support::process::{Run, petril, run};
 use tempfile::TempDir;
 
@@ -344,6 +345,107 @@ fn what_the_clock_has_ended_is_not_kept() {
     let first = petril(folder.path(), &["check"]);
     assert_eq!(first.code, 3, "{}", first.stdout);
     assert!(!folder.path().join(".petril-cache").exists() || kept(&folder.path().join(".petril-cache")).is_empty());
+}
+
+/// To write what is printed now into the guide: `PETRIL_BLESS=1 cargo test --test projects`. Then read it.
+#[test]
+fn the_guide_shows_what_is_printed() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/projects.md");
+    let text = fs::read_to_string(&path).unwrap();
+    let now = replay(&text);
+    if std::env::var_os("PETRIL_BLESS").is_some() {
+        fs::write(path, now).unwrap();
+    } else {
+        assert_eq!(text, now);
+    }
+}
+
+#[test]
+fn the_example_in_the_guide_is_the_one_that_is_written() {
+    let (written, folder) = (example(), TempDir::new().unwrap());
+    mend(written.path());
+    let guide = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/projects.md")).unwrap();
+    let shown = guide.split("```il gate.il\n").nth(1).unwrap().split("```").next().unwrap();
+    fs::write(folder.path().join("shown.il"), shown).unwrap();
+    let flat = |folder: &Path, file: &str| {
+        let lines = petril(folder, &["flat", file]).stdout;
+        let code = |line: &str| line.split(';').next().unwrap().to_owned();
+        lines.lines().map(code).collect::<Vec<_>>()
+    };
+    assert_eq!(flat(folder.path(), "shown.il").len(), flat(written.path(), "gate.il").len());
+}
+
+#[test]
+fn shells_take_the_completions() {
+    let here = Path::new(".");
+    for (shell, word) in [("bash", "complete "), ("zsh", "#compdef petril"), ("fish", "complete -c petril")] {
+        let script = petril(here, &["completions", shell]);
+        assert_eq!(script.code, 0);
+        assert!(script.stdout.contains(word) && script.stdout.contains("completions"), "{shell}");
+        // Only if there is such a shell.
+        let folder = TempDir::new().unwrap();
+        fs::write(folder.path().join("script"), &script.stdout).unwrap();
+        let read = Command::new(shell).arg("-n").arg(folder.path().join("script")).output();
+        assert!(read.is_err() || read.is_ok_and(|read| read.status.success()), "{shell}");
+    }
+    assert_eq!(petril(here, &["completions", "dos"]).code, 2);
+}
+
+#[test]
+fn every_verb_has_a_manual_page() {
+    let folder = TempDir::new().unwrap();
+    assert_eq!(petril(folder.path(), &["man", "-o", "man1"]).code, 0);
+    let page = |name: &str| fs::read_to_string(folder.path().join("man1").join(format!("{name}.1"))).unwrap();
+    for name in ["petril", "petril-check", "petril-init", "petril-simulate", "petril-net", "petril-net-check"] {
+        let text = page(name);
+        let heads: Vec<&str> = text.lines().filter(|line| line.starts_with(".SH ")).collect();
+        assert!(text.contains(".TH "), "{name}");
+        assert!(heads.starts_with(&[".SH NAME", ".SH SYNOPSIS", ".SH DESCRIPTION"]), "{name}: {heads:?}");
+        // Requests have names; what begins otherwise would vanish.
+        let is_request = |line: &str| line[1..].starts_with(|c: char| c.is_ascii_alphabetic());
+        let strange: Vec<&str> = text.lines().filter(|line| line.starts_with(['.', '\''])  && !is_request(line)).collect();
+        let known = |line: &&str| !line.starts_with(".\\\"") && !line.starts_with(".ie") && !line.starts_with(".el");
+        assert_eq!(strange.into_iter().filter(known).collect::<Vec<_>>(), Vec::<&str>::new(), "{name}");
+    }
+    assert!(page("petril-check").contains("\\-\\-watch"));
+    assert_eq!(petril(folder.path(), &["man"]).stdout, page("petril"));
+}
+
+#[test]
+fn a_project_has_reports_of_every_form() {
+    let folder = TempDir::new().unwrap();
+    examples(folder.path());
+    let options = "--junit all.xml --sarif all.sarif --html pages --csv tables --trace-csv runs --vcd waves --json";
+    let options: Vec<&str> = ["check", "--no-cache"].into_iter().chain(options.split(' ')).collect();
+    let document = json(&petril(folder.path(), &options));
+    let names: Vec<&str> =
+        document["programs"].as_array().unwrap().iter().map(|program| program["name"].as_str().unwrap()).collect();
+    let text = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let suites = text("all.xml");
+    let sarif: Value = serde_json::from_str(&text("all.sarif")).unwrap();
+    assert_eq!(sarif["runs"].as_array().unwrap().len(), names.len());
+    assert_eq!(suites.matches("<testsuite ").count(), names.len());
+    for name in names {
+        assert!(suites.contains(&format!("<testsuite name=\"{name}\"")), "{name}");
+        assert!(text(&format!("pages/{name}.html")).contains("<html"));
+        assert!(text(&format!("tables/{name}.csv")).starts_with("kind,"));
+        assert!(folder.path().join("runs").join(name).is_dir() && folder.path().join("waves").join(name).is_dir());
+    }
+    let schema = |name: &str| -> Value {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/schema").join(name);
+        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+    };
+    let (mut project, report) = (schema("project.schema.json"), schema("report.schema.json"));
+    // Each report by itself: the validator knows no schema by its name.
+    project["properties"]["programs"]["items"]["properties"]["report"] = Value::Bool(true);
+    let errors = |schema: &Value, document: &Value| -> Vec<String> {
+        let validator = jsonschema::draft202012::new(schema).unwrap();
+        validator.iter_errors(document).map(|error| error.to_string()).collect()
+    };
+    assert_eq!(errors(&project, &document), Vec::<String>::new());
+    for program in document["programs"].as_array().unwrap() {
+        assert_eq!(errors(&report, &program["report"]), Vec::<String>::new(), "{}", program["name"]);
+    }
 }
 
 /// Lines as a process prints them.
