@@ -56,7 +56,8 @@ fn main() {
 /// 50 programs of five kinds in ten sizes, with ten requirements each.
 fn write_project(folder: &Path) {
     fs::create_dir_all(folder.join("lines")).unwrap();
-    fs::write(folder.join("petril.toml"), "[[check]]\nprograms = \"lines/*.il\"\nrequirements = \"{stem}.req\"\n").unwrap();
+    fs::write(folder.join("petril.toml"), "[[check]]\nprograms = \"lines/*.il\"\nrequirements = \"{stem}.req\"\n")
+        .unwrap();
     let kinds: [(&str, fn(usize) -> (String, [String; 10])); 5] =
         [("starter", starter), ("sequence", sequence), ("delay", delay), ("count", count), ("vote", vote)];
     for (kind, write) in kinds {
@@ -96,7 +97,8 @@ fn starter(size: usize) -> (String, [String; 10]) {
         "AG !(Motor1 & Motor2);".to_owned(),
         format!("mutual_exclusion(Motor{}, Motor{n});", n - 1),
         format!("AG (!Stop -> !({}));", names("Motor", 1..=n, " | ")),
-        "If Motor1 is true at the end of a scan, Start1 was true at the beginning of this or an earlier scan.".to_owned(),
+        "If Motor1 is true at the end of a scan, Start1 was true at the beginning of this or an earlier scan."
+            .to_owned(),
         "AG (rising(Motor1) -> Start1);".to_owned(),
         format!("repeatability(Motor{n});"),
         "AG EF !Motor1;".to_owned(),
@@ -113,7 +115,11 @@ fn sequence(size: usize) -> (String, [String; 10]) {
     let mut code = String::from("    LD Reset\n    JMPC back\n");
     for i in 1..n {
         let next = i + 1;
-        write!(code, "    LD Step{i}\n    AND Go{i}\n    JMPCN no{i}\n    R Step{i}\n    S Step{next}\n    JMP out\nno{i}:\n").unwrap();
+        write!(
+            code,
+            "    LD Step{i}\n    AND Go{i}\n    JMPCN no{i}\n    R Step{i}\n    S Step{next}\n    JMP out\nno{i}:\n"
+        )
+        .unwrap();
     }
     write!(code, "    JMP out\nback:\n    LD TRUE\n    S Step1\n").unwrap();
     (2..=n).for_each(|i| writeln!(code, "    R Step{i}").unwrap());
@@ -197,7 +203,13 @@ fn vote(size: usize) -> (String, [String; 10]) {
         writeln!(code, "    ST Sure{x}").unwrap();
     }
     for (x, y, first) in [("A", "B", true), ("A", "C", false), ("B", "C", false)] {
-        write!(code, "    {} Sure{x}\n    AND Sure{y}\n{}", if first { "LD" } else { "OR(" }, if first { "" } else { "    )\n" }).unwrap();
+        write!(
+            code,
+            "    {} Sure{x}\n    AND Sure{y}\n{}",
+            if first { "LD" } else { "OR(" },
+            if first { "" } else { "    )\n" }
+        )
+        .unwrap();
     }
     let and = if size.is_multiple_of(2) { "    ANDN Hold\n" } else { "" };
     write!(code, "{and}    ST Out\n").unwrap();

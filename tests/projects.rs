@@ -198,7 +198,8 @@ fn a_spoilt_file_is_as_if_it_were_not_there() {
     let middle = good.len() / 2;
     let mut flipped = good.clone();
     flipped[middle] ^= 1;
-    let spoilt: [&[u8]; 6] = [b"", b"\n", b"\xFF\xFE\n{}", &good[..middle], &flipped, b"petril\n{\"exploration\":null}"];
+    let spoilt: [&[u8]; 6] =
+        [b"", b"\n", b"\xFF\xFE\n{}", &good[..middle], &flipped, b"petril\n{\"exploration\":null}"];
     for bytes in spoilt {
         fs::write(&file, bytes).unwrap();
         assert_eq!(petril(folder.path(), &["check", "--json"]).stdout, right.stdout);
@@ -329,7 +330,10 @@ fn two_at_once_do_each_other_no_harm() {
     // How much is known is the only thing that may differ.
     let without = |text: &str| -> Vec<String> {
         let plain = text.lines().filter(|line| !line.contains("known from an earlier run") && !line.contains(" | "));
-        plain.filter(|line| !line.starts_with("program") && !line.contains("requirements:")).map(str::to_owned).collect()
+        plain
+            .filter(|line| !line.starts_with("program") && !line.contains("requirements:"))
+            .map(str::to_owned)
+            .collect()
     };
     for run in runs {
         assert_eq!(without(&run.stdout), without(&right));
@@ -403,7 +407,8 @@ fn every_verb_has_a_manual_page() {
         assert!(heads.starts_with(&[".SH NAME", ".SH SYNOPSIS", ".SH DESCRIPTION"]), "{name}: {heads:?}");
         // Requests have names; what begins otherwise would vanish.
         let is_request = |line: &str| line[1..].starts_with(|c: char| c.is_ascii_alphabetic());
-        let strange: Vec<&str> = text.lines().filter(|line| line.starts_with(['.', '\''])  && !is_request(line)).collect();
+        let strange: Vec<&str> =
+            text.lines().filter(|line| line.starts_with(['.', '\'']) && !is_request(line)).collect();
         let known = |line: &&str| !line.starts_with(".\\\"") && !line.starts_with(".ie") && !line.starts_with(".el");
         assert_eq!(strange.into_iter().filter(known).collect::<Vec<_>>(), Vec::<&str>::new(), "{name}");
     }

@@ -100,6 +100,8 @@ pub struct Manual {
 ///
 /// All reachable states are explored, so a verdict `holds` is a proof under the assumptions the report lists, and
 /// `violated` comes with a shortest run that shows it, replayed on the net and in the interpreter.
+///
+/// Without a program, all programs of the project file are checked. Then --html, --csv, --trace-csv and --vcd name folders.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 Formulas are CTL: AG EF AX EX AF EG, A [p U q], E [p U q] and W (weak until) over the program's variables, with
@@ -129,7 +131,7 @@ pub struct Check {
     #[arg(long, help_heading = "Projects")]
     pub no_cache: bool,
     /// Check again whenever a file changes.
-    #[arg(long)]
+    #[arg(long, help_heading = "Projects")]
     pub watch: bool,
     /// A plant: a safe net (.net or .pnml) whose places named like `S1=1,O1=0` drive inputs. Inputs that no plant drives
     /// are free. May be given several times.

@@ -2,9 +2,9 @@
 
 use clap::CommandFactory;
 
+use super::Outcome;
 use super::args::{Args, Completions};
 use super::console::Console;
-use super::Outcome;
 
 pub fn run(arguments: &Completions, console: &Console) -> Outcome {
     let mut script = Vec::new();

@@ -1,7 +1,7 @@
 //! How far a search may go, how far it is, and why it stopped.
 
-use std::fmt;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// What a search may use. It stops at the first limit and keeps what it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,8 +7,8 @@
 //!
 //! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::circuit::Circuit;
 use super::free_inputs::FreeInputs;

@@ -1,7 +1,7 @@
 //! The checked program: names resolved to variables, labels to positions, every value typed.
 
-use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 use super::address::Area;
 use super::function::Function;

@@ -1,7 +1,7 @@
 //! Requirements that hold whatever the program does.
 
-use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 use crate::logic::{Assumption, Bound};
 use crate::semantics::Role;

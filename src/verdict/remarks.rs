@@ -1,7 +1,7 @@
 //! What is worth knowing though nobody asked: outputs that never change, instructions that are never executed.
 
-use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 use crate::explore::{Graph, ScanSpace};
 use crate::semantics::{Role, VarId};

@@ -1,7 +1,7 @@
 //! Traces of the scan view: what the plant did, what the inputs were, and what the scan left.
 
-use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 use super::recalled::Recalled;
 use super::replay::{Disagreement, Replay};

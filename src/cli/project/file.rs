@@ -75,7 +75,9 @@ impl Reader {
                     }
                 }
                 ("check", DeValue::Array(values)) => checks = values.iter().collect(),
-                ("defaults", _) => self.wrong(value, "`defaults` is a table", "write `[defaults]` on a line of its own"),
+                ("defaults", _) => {
+                    self.wrong(value, "`defaults` is a table", "write `[defaults]` on a line of its own")
+                }
                 ("check", _) => self.wrong(
                     value,
                     "`check` is a list of tables",
@@ -92,7 +94,8 @@ impl Reader {
         }
         if self.entries.is_empty() && self.diagnostics.is_empty() {
             let diagnostic = Diagnostic::new(Code::ProjectProgram, Span::default(), "this project has no program");
-            self.diagnostics.push(diagnostic.help("begin a part with `[[check]]`, and name one: `program = \"press.il\"`"));
+            self.diagnostics
+                .push(diagnostic.help("begin a part with `[[check]]`, and name one: `program = \"press.il\"`"));
         }
     }
 
@@ -136,15 +139,15 @@ impl Reader {
     fn entry(&mut self, place: Span, name: String, is_named: bool, program: &str, settings: &[Setting]) {
         if self.entries.iter().any(|entry| entry.name == name) {
             let message = format!("a check named `{name}` was given already");
-            let help = if is_named { "give each a name of its own" } else { "give one of them a name: `name = \"…\"`" };
+            let help =
+                if is_named { "give each a name of its own" } else { "give one of them a name: `name = \"…\"`" };
             self.diagnostics.push(Diagnostic::new(Code::ProjectName, place, message).help(help));
             return;
         }
         let stem = Path::new(program).with_extension("").display().to_string();
         let base = Path::new(&stem).file_name().map(|base| base.to_string_lossy().into_owned()).unwrap_or_default();
-        let path = |text: &str| {
-            self.folder.join(text.replace("{stem}", &stem).replace("{name}", &base)).display().to_string()
-        };
+        let path =
+            |text: &str| self.folder.join(text.replace("{stem}", &stem).replace("{name}", &base)).display().to_string();
         let options = settings.iter().flat_map(|setting| setting.arguments(&path)).collect();
         self.entries.push(Entry { name, options, program: self.folder.join(program) });
     }

@@ -127,7 +127,14 @@ pub fn span<T>(value: &Spanned<T>) -> Span {
 /// What the command line says against a value, if it does not take it.
 fn refused(option: &str, value: &str) -> Option<String> {
     let command = Check::augment_args(Command::new("check"));
-    let error = command.try_get_matches_from(["check".to_owned(), format!("--{option}={value}"), "--".to_owned(), "program".to_owned()]).err()?;
+    let error = command
+        .try_get_matches_from([
+            "check".to_owned(),
+            format!("--{option}={value}"),
+            "--".to_owned(),
+            "program".to_owned(),
+        ])
+        .err()?;
     Some(match (error.get(ContextKind::ValidValue), error.source()) {
         (Some(ContextValue::Strings(values)), _) if !values.is_empty() => format!("it is one of {}", values.join(", ")),
         (_, Some(reason)) => reason.to_string(),

@@ -22,7 +22,8 @@ pub fn matches(
     name: Option<String>,
     programs: Programs,
 ) -> Result<Vec<(String, String)>, Diagnostic> {
-    let wrong = |span, message: String, help: &str| Err(Diagnostic::new(Code::ProjectProgram, span, message).help(help));
+    let wrong =
+        |span, message: String, help: &str| Err(Diagnostic::new(Code::ProjectProgram, span, message).help(help));
     match programs {
         Programs { one: Some((program, _)), patterns: None } => {
             Ok(vec![(name.unwrap_or_else(|| without_ending(&program)), program)])

@@ -12,8 +12,8 @@ use petril::exchange::json;
 use petril::verdict::Verdict;
 use serde_json::{Value, json};
 
-use super::forms;
 use super::file::{Entry, NAME, find, read};
+use super::forms;
 use super::given::arguments;
 use super::summary::{Line, summary};
 use crate::cli::args::Check;
@@ -64,14 +64,16 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> std::result::Result<Vec<Entry
         return Ok(entries);
     }
     let pattern = |text: &String| {
-        let wrong = |error: glob::PatternError| Failure::Message(format!("--only: `{text}` is no pattern: {}", error.msg));
+        let wrong =
+            |error: glob::PatternError| Failure::Message(format!("--only: `{text}` is no pattern: {}", error.msg));
         let pattern = glob::Pattern::new(text).map_err(wrong)?;
         if entries.iter().any(|entry| pattern.matches(&entry.name)) {
             return Ok(pattern);
         }
         let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
         let nearest = petril::diagnostic::nearest(text, names.iter().copied());
-        let help = nearest.map_or_else(|| format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
+        let help =
+            nearest.map_or_else(|| format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
         Err(Failure::Message(format!("--only: no program of the project is called `{text}`\n  {help}")))
     };
     let patterns: Vec<glob::Pattern> = only.iter().map(pattern).collect::<std::result::Result<_, Failure>>()?;

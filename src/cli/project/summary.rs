@@ -83,7 +83,8 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
 
 /// `3 programs: 1 holds, …`
 fn programs(lines: &[Line<'_>]) -> String {
-    let with = |verdict| lines.iter().filter_map(|line| line.done).filter(|done| done.report.verdict() == verdict).count();
+    let with =
+        |verdict| lines.iter().filter_map(|line| line.done).filter(|done| done.report.verdict() == verdict).count();
     let wrong = lines.iter().filter(|line| line.done.is_none()).count();
     let mut parts = vec![format!("{} as they should be", with(Verdict::Holds))];
     parts.extend((with(Verdict::Violated) > 0).then(|| format!("{} with something violated", with(Verdict::Violated))));

@@ -27,14 +27,7 @@ pub fn fingerprint(system: &System, options: &Options) -> String {
         line.span = Span::new(group, group);
     }
     let asserted: Vec<_> = assertions.iter().map(|assertion| (&assertion.formula, &assertion.lines)).collect();
-    of(&(
-        program,
-        &system.plant,
-        &system.domains,
-        (view, fair, budget, tolerated),
-        assumptions,
-        asserted,
-    ))
+    of(&(program, &system.plant, &system.domains, (view, fair, budget, tolerated), assumptions, asserted))
 }
 
 /// The fingerprint of a requirement of a system.

@@ -18,7 +18,7 @@ use super::check::{answers, asked, check};
 use super::coverage::coverage;
 use super::{Answer, Exploration, Options, Outcome, Remark, Report, asserted};
 use crate::explore::Progress;
-use crate::logic::{Demand, Requirement};
+use crate::logic::{Demand, Requirement, View};
 use crate::translate::System;
 use confirm::{is_about, is_confirmed};
 use fingerprint::of_demand;
@@ -36,8 +36,8 @@ pub struct Known {
     /// What is checked without asking.
     checks: Vec<Answer>,
     remarks: Vec<Remark>,
-    /// Lines that are never executed, if that is known; nothing in the transition view.
-    never_executed: Option<Option<Vec<usize>>>,
+    /// Lines that are never executed, if that is known.
+    never_executed: Option<Vec<usize>>,
     /// The outcomes of requirements, by their fingerprints.
     outcomes: BTreeMap<String, Outcome>,
 }
@@ -110,7 +110,7 @@ impl Known {
             asserted: asserted.iter().map(outcome).collect(),
             checks: report.checks.clone(),
             remarks: report.remarks.clone(),
-            never_executed: report.coverage.as_ref().map(|coverage| coverage.never_executed.clone()),
+            never_executed: report.coverage.as_ref().and_then(|coverage| coverage.never_executed.clone()),
             outcomes: demands.iter().cloned().zip(asked.iter().map(outcome)).collect(),
             asked: demands,
         }
@@ -118,7 +118,7 @@ impl Known {
 
     /// Whether this can be about the system at all: what was kept may be anything.
     fn is_about(&self, system: &System, options: &Options) -> bool {
-        let mut lines = self.never_executed.iter().flatten().flatten();
+        let mut lines = self.never_executed.iter().flatten();
         self.asserted.len() == options.assertions.len()
             && self.exploration.view == options.view
             && self.remarks.iter().all(|remark| is_about(system, remark))
@@ -144,17 +144,21 @@ impl Known {
         let recalled = |answer: Answer| Answer { recalled: true, ..answer };
         let asserted =
             options.assertions.iter().zip(&self.asserted).map(|(a, outcome)| asserted::answer(a, outcome.clone()));
-        let never = self.never_executed.clone();
+        let scans = options.view == View::Scan;
         Report {
             exploration: Exploration { recalled: true, ..self.exploration.clone() },
             assumptions: assumptions(system, options, is_timed(requirements))
                 .into_iter()
                 .chain(self.found_assumptions.iter().cloned())
                 .collect(),
-            answers: answers(system, requirements, options, outcomes).into_iter().chain(asserted).map(recalled).collect(),
+            answers: answers(system, requirements, options, outcomes)
+                .into_iter()
+                .chain(asserted)
+                .map(recalled)
+                .collect(),
             checks: self.checks.iter().cloned().map(recalled).collect(),
             remarks: self.remarks.clone(),
-            coverage: never.map(|never| coverage(system, asked(requirements, options), never)),
+            coverage: scans.then(|| coverage(system, asked(requirements, options), self.never_executed.clone())),
         }
     }
 }
