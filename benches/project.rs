@@ -53,12 +53,15 @@ fn main() {
     row("five requirements of 505 are new", times.min().unwrap());
 }
 
+/// The program of a size, with its requirements.
+type Kind = fn(usize) -> (String, [String; 10]);
+
 /// 50 programs of five kinds in ten sizes, with ten requirements each.
 fn write_project(folder: &Path) {
     fs::create_dir_all(folder.join("lines")).unwrap();
     fs::write(folder.join("petril.toml"), "[[check]]\nprograms = \"lines/*.il\"\nrequirements = \"{stem}.req\"\n")
         .unwrap();
-    let kinds: [(&str, fn(usize) -> (String, [String; 10])); 5] =
+    let kinds: [(&str, Kind); 5] =
         [("starter", starter), ("sequence", sequence), ("delay", delay), ("count", count), ("vote", vote)];
     for (kind, write) in kinds {
         for size in 1..=10 {
@@ -212,7 +215,7 @@ fn vote(size: usize) -> (String, [String; 10]) {
         .unwrap();
     }
     let and = if size.is_multiple_of(2) { "    ANDN Hold\n" } else { "" };
-    write!(code, "{and}    ST Out\n").unwrap();
+    writeln!(code, "{and}    ST Out").unwrap();
     let program = format!(
         "PROGRAM vote\nVAR_INPUT A, B, C, Hold : BOOL; END_VAR\nVAR {}, {}, {}, SureA, SureB, SureC : BOOL; END_VAR\n\
          VAR_OUTPUT Out : BOOL; END_VAR\n{code}END_PROGRAM\n",

@@ -76,7 +76,7 @@ impl Reader {
                 }
                 ("check", DeValue::Array(values)) => checks = values.iter().collect(),
                 ("defaults", _) => {
-                    self.wrong(value, "`defaults` is a table", "write `[defaults]` on a line of its own")
+                    self.wrong(value, "`defaults` is a table", "write `[defaults]` on a line of its own");
                 }
                 ("check", _) => self.wrong(
                     value,
