@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use petril::verdict::Examination;
 
 use super::forms::Forms;
@@ -51,12 +52,56 @@ pub enum Verb {
     Net(NetVerb),
     /// Explain a code like E0201 that stands in a message.
     Explain(Explain),
+    /// Write an example of a project, to begin with.
+    Init(Init),
+    /// Print what a shell needs to complete command lines.
+    Completions(Completions),
+    /// Print the manual page, or write those of all verbs.
+    Man(Manual),
+}
+
+/// `petril init`
+///
+/// Writes a program with a fault, its plant, its requirements, and a project file, so that `petril check` alone checks them. No
+/// file is overwritten.
+#[derive(Debug, clap::Args)]
+pub struct Init {
+    /// The folder to write into. It is made if it does not exist.
+    #[arg(value_name = "FOLDER", default_value = ".")]
+    pub folder: PathBuf,
+}
+
+/// `petril completions`
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Examples:
+  petril completions bash > ~/.local/share/bash-completion/completions/petril
+  petril completions zsh > ~/.zfunc/_petril
+  petril completions fish > ~/.config/fish/completions/petril.fish")]
+pub struct Completions {
+    /// The shell.
+    #[arg(value_name = "SHELL", value_enum)]
+    pub shell: Shell,
+}
+
+/// `petril man`
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Examples:
+  petril man | man -l -
+  petril man -o ~/.local/share/man/man1")]
+pub struct Manual {
+    /// Write a page for each verb into this folder.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
 }
 
 /// `petril check`
 ///
 /// All reachable states are explored, so a verdict `holds` is a proof under the assumptions the report lists, and
 /// `violated` comes with a shortest run that shows it, replayed on the net and in the interpreter.
+///
+/// Without a program, all programs of the project file are checked. Then --html, --csv, --trace-csv and --vcd name folders.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 Formulas are CTL: AG EF AX EX AF EG, A [p U q], E [p U q] and W (weak until) over the program's variables, with
@@ -73,22 +118,34 @@ A requirement file:
   requirement both_hands \"The press closes only while both buttons are pressed\":
       AG (Down -> Left & Right);")]
 pub struct Check {
-    /// The program: Instruction List, or a PLCopen project in XML.
-    #[arg(value_name = "PROGRAM")]
-    pub program: PathBuf,
+    /// The program: Instruction List, or a PLCopen project in XML. Without one, those of the project file are checked.
+    #[arg(value_name = "PROGRAM", conflicts_with_all = ["project", "only"])]
+    pub program: Option<PathBuf>,
+    /// The project file; if neither it nor a program is given, the `petril.toml` of this folder or of the nearest one above.
+    #[arg(long, value_name = "FILE", help_heading = "Projects")]
+    pub project: Option<PathBuf>,
+    /// Check only the programs of the project whose names match, like `lines/*`. May be given several times.
+    #[arg(long, value_name = "NAME", help_heading = "Projects")]
+    pub only: Vec<String>,
+    /// Compute everything again, and keep nothing for the next time.
+    #[arg(long, help_heading = "Projects")]
+    pub no_cache: bool,
+    /// Check again whenever a file changes.
+    #[arg(long, help_heading = "Projects")]
+    pub watch: bool,
     /// A plant: a safe net (.net or .pnml) whose places named like `S1=1,O1=0` drive inputs. Inputs that no plant drives
     /// are free. May be given several times.
-    #[arg(long, value_name = "NET")]
+    #[arg(long, value_name = "NET", requires = "program")]
     pub plant: Vec<PathBuf>,
     /// A file of requirements. May be given several times.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "program")]
     pub require: Vec<PathBuf>,
     /// A requirement as a formula. May be given several times.
-    #[arg(short = 'r', long = "requirement", value_name = "FORMULA", allow_hyphen_values = true)]
+    #[arg(short = 'r', long = "requirement", value_name = "FORMULA", allow_hyphen_values = true, requires = "program")]
     pub requirement: Vec<String>,
     /// What an input can be that no plant drives, like `level: 0..100` or `k: 0, 3, 7`. May be given several times; a
     /// requirement file may say it too (`domain level: 0..100;`).
-    #[arg(long, value_name = "DOMAIN")]
+    #[arg(long, value_name = "DOMAIN", requires = "program")]
     pub domain: Vec<String>,
     /// What a state is: the end of a scan, or a marking of the net.
     #[arg(long, value_enum, default_value_t = View::Scan)]

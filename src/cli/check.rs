@@ -1,21 +1,82 @@
 //! `petril check`: requirements on a program.
 
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use petril::exchange::{Checked, json};
+use petril::explore::Progress;
 use petril::logic::{self, Assertion, Assumption, Demand, Requirement, representatives};
+use petril::source::Source;
 use petril::translate::System;
-use petril::verdict::{Options, Verdict, check};
+use petril::verdict::{Options, Report, Verdict, check, check_knowing, fingerprint};
 
 use super::args::{Check, View};
+use super::cache::Cache;
 use super::console::Console;
 use super::input::Program;
 use super::progress::Watcher;
 use super::requirements::{Asked, Bound};
-use super::{Failure, Outcome, forms, input, report};
+use super::{Failure, Outcome, forms, input, project, report, watch};
 
-pub fn run(arguments: &Check, console: &Console) -> Outcome {
+/// A program that was checked.
+pub struct Done {
+    pub system: System,
+    pub source: Source,
+    pub report: Report,
+    pub started: Instant,
+}
+
+impl Done {
+    /// The report, for those who write it.
+    pub fn told(&self) -> Checked<'_> {
+        Checked { system: &self.system, source: &self.source, report: &self.report }
+    }
+}
+
+/// `given` are the options on the command line, as they were typed.
+pub fn run(arguments: &Check, given: &[OsString], console: &Console) -> Outcome {
+    let once = || match &arguments.program {
+        Some(program) => alone(arguments, program, console),
+        None => project::run(arguments, given, console),
+    };
+    if arguments.watch { watch::run(console, &once) } else { once() }
+}
+
+/// Checks one program.
+fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
+    let watcher = Watcher::new(&arguments.limits)?;
+    let cache = if arguments.no_cache { None } else { Cache::open(None) };
+    let done = checked(arguments, program, cache.as_ref(), console, &watcher)?;
+    let Done { system, source, report, .. } = &done;
+    forms::write(&arguments.forms, &done.told(), done.started)?;
+    if arguments.json {
+        console.print_json(json::report(&done.told(), arguments.by_line || arguments.details))?;
+    } else {
+        let text = report::Text { system, source, arguments, console };
+        console.print(&text.report(report))?;
+    }
+    Ok(code(report.verdict()))
+}
+
+/// The exit code of a verdict.
+pub fn code(verdict: Verdict) -> ExitCode {
+    match verdict {
+        Verdict::Holds => ExitCode::SUCCESS,
+        Verdict::Violated => ExitCode::from(1),
+        Verdict::Unknown => ExitCode::from(3),
+    }
+}
+
+/// Reads a program and everything that is asked of it, and judges.
+pub fn checked(
+    arguments: &Check,
+    program: &Path,
+    cache: Option<&Cache>,
+    console: &Console,
+    watcher: &Watcher,
+) -> Result<Done, Failure> {
     let view = match arguments.view {
         View::Scan => logic::View::Scan,
         View::Transition => logic::View::Transition,
@@ -24,7 +85,7 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         let message = "--fair is for `--view transition`: in the scan view the PLC always scans again";
         return Err(Failure::Message(message.to_owned()));
     }
-    let source = input::source(&arguments.program, input::MAX_TEXT, console)?;
+    let source = input::source(program, input::MAX_TEXT, console)?;
     let mut asked = Asked::read(arguments, console)?;
     asked.read_comments(&source);
     let mut reading = arguments.meaning.reading.clone();
@@ -38,8 +99,6 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
     if view == logic::View::Scan {
         system = with_representatives(system, &requirements, &assumptions, &assertions);
     }
-    let started = Instant::now();
-    let watcher = Watcher::new(&arguments.limits)?;
     let options = Options {
         view,
         fair: arguments.fair,
@@ -48,21 +107,19 @@ pub fn run(arguments: &Check, console: &Console) -> Outcome {
         assumptions,
         assertions,
     };
-    let result = check(&system, &requirements, &options, &mut |progress| watcher.watch(progress));
+    let started = Instant::now();
+    let mut watch = |progress: &Progress| watcher.watch(progress);
+    let report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
+        Some((cache, fingerprint)) => {
+            let known = cache.recall(&fingerprint);
+            let (report, now) = check_knowing(&system, &requirements, &options, known.as_ref(), &mut watch);
+            now.iter().for_each(|now| cache.keep(&fingerprint, now));
+            report
+        }
+        None => check(&system, &requirements, &options, &mut watch),
+    };
     watcher.finish();
-    let checked = Checked { system: &system, source: &source, report: &result };
-    forms::write(&arguments.forms, &checked, started)?;
-    if arguments.json {
-        console.print_json(json::report(&checked, arguments.by_line || arguments.details))?;
-    } else {
-        let text = report::Text { system: &system, source: &source, arguments, console };
-        console.print(&text.report(&result))?;
-    }
-    Ok(match result.verdict() {
-        Verdict::Holds => ExitCode::SUCCESS,
-        Verdict::Violated => ExitCode::from(1),
-        Verdict::Unknown => ExitCode::from(3),
-    })
+    Ok(Done { system, source, report, started })
 }
 
 /// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 
 use petril::diagnostic::{Diagnostic, Style, render};
 use petril::exchange::json;
@@ -25,6 +26,25 @@ pub struct Console {
     has_unicode: bool,
     /// The diagnostics printed so far, for those who want JSON.
     printed: RefCell<Vec<Value>>,
+    /// Messages, if they are not printed at once.
+    held: Option<RefCell<String>>,
+    colour: When,
+    /// The files that were read, for whoever waits for them to change, each with what was in it.
+    files: RefCell<Vec<(PathBuf, Option<blake3::Hash>)>>,
+}
+
+/// What one of several consoles was told.
+pub struct Told {
+    messages: String,
+    diagnostics: Vec<Value>,
+    files: Vec<(PathBuf, Option<blake3::Hash>)>,
+}
+
+impl Told {
+    /// The diagnostics, for those who want JSON.
+    pub fn take_diagnostics(&mut self) -> Vec<Value> {
+        std::mem::take(&mut self.diagnostics)
+    }
 }
 
 impl Console {
@@ -42,7 +62,46 @@ impl Console {
             output_width: console_width().or_else(terminal_width),
             has_unicode: locale_has_unicode(),
             printed: RefCell::default(),
+            held: None,
+            colour,
+            files: RefCell::default(),
         }
+    }
+
+    /// When this uses colours.
+    pub fn colour(&self) -> When {
+        self.colour
+    }
+
+    /// A console that keeps everything to itself until it is told to this one.
+    pub fn holding(colour: When) -> Self {
+        Self { held: Some(RefCell::default()), ..Self::new(colour) }
+    }
+
+    /// What was told to a console that keeps it.
+    pub fn told(self) -> Told {
+        let messages = self.held.map(RefCell::into_inner).unwrap_or_default();
+        Told { messages, diagnostics: self.printed.into_inner(), files: self.files.into_inner() }
+    }
+
+    /// Prints what another one was told.
+    pub fn tell(&self, told: Told) {
+        self.message(&told.messages);
+        self.printed.borrow_mut().extend(told.diagnostics);
+        self.files.borrow_mut().extend(told.files);
+    }
+
+    /// A file was read, or could not be.
+    pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
+        self.files.borrow_mut().push((path.to_owned(), bytes.map(blake3::hash)));
+    }
+
+    /// The files that were read since this was last asked.
+    pub fn take_files(&self) -> Vec<(PathBuf, Option<blake3::Hash>)> {
+        let mut files = self.files.take();
+        files.sort_by(|(a, _), (b, _)| a.cmp(b));
+        files.dedup_by(|(a, _), (b, _)| a == b);
+        files
     }
 
     /// Prints the diagnostics of a file, most of them, each with an empty line behind it.
@@ -65,7 +124,10 @@ impl Console {
 
     /// Prints a message. If nobody listens, so be it.
     pub fn message(&self, text: &str) {
-        let _ = io::stderr().write_all(text.as_bytes());
+        match &self.held {
+            Some(held) => held.borrow_mut().push_str(text),
+            None => drop(io::stderr().write_all(text.as_bytes())),
+        }
     }
 
     /// Prints a result.

@@ -27,6 +27,7 @@ const PAGES: &[(&str, &str)] = pages! {
     "E0501" "E0502" "E0503" "E0504" "E0505" "E0506" "E0507" "E0508"
     "E0601"
     "E0701" "E0702" "E0703" "E0704" "E0705" "E0706" "E0707" "E0708" "E0709"
+    "E0801" "E0802" "E0803" "E0804" "E0805"
 };
 
 pub fn run(arguments: &Explain, console: &Console) -> Outcome {

@@ -35,12 +35,7 @@ pub struct Forms {
 
 /// Writes what was asked for. Each file is whole, or is not there.
 pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(), Failure> {
-    let files = [&forms.html, &forms.junit, &forms.sarif, &forms.csv];
-    let mut names = BTreeSet::new();
-    if let Some(twice) = files.into_iter().flatten().find(|name| !names.insert(*name)) {
-        let message = format!("`{}` cannot be two things: give each form a file of its own", twice.display());
-        return Err(Failure::Message(message));
-    }
+    refuse_twice(forms)?;
     let stamp = stamp(started);
     if let Some(file) = &forms.html {
         output::write_text(file, &html::write(checked, stamp))?;
@@ -68,6 +63,19 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
     Ok(())
 }
 
+/// Refuses two forms in one file.
+pub fn refuse_twice(forms: &Forms) -> Result<(), Failure> {
+    let files = [&forms.html, &forms.junit, &forms.sarif, &forms.csv];
+    let mut names = BTreeSet::new();
+    match files.into_iter().flatten().find(|name| !names.insert(*name)) {
+        Some(twice) => {
+            let message = format!("`{}` cannot be two things: give each form a file of its own", twice.display());
+            Err(Failure::Message(message))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Writes a file for each counterexample, named after the requirement.
 fn each_counterexample(
     folder: &Path,
@@ -91,7 +99,7 @@ fn each_counterexample(
 }
 
 /// The time now. A build that must not depend on it says another one in `SOURCE_DATE_EPOCH`, and then takes no time.
-fn stamp(started: Instant) -> Stamp {
+pub fn stamp(started: Instant) -> Stamp {
     let said = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
     let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     match said {

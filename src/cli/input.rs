@@ -25,13 +25,17 @@ const MAX_NET: u64 = 2 << 30;
 /// Reads a file as text. `-` is standard input.
 pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Failure> {
     let name = path.display().to_string();
-    let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {}", reason(&error)));
+    let cannot = |error: std::io::Error| {
+        console.has_read(path, None);
+        Failure::Message(format!("cannot read `{name}`: {}", reason(&error)))
+    };
     let mut bytes = Vec::new();
     if name == "-" {
         std::io::stdin().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
     } else {
         // The file itself, not a trait object: it knows its size, so that the bytes are put in their place at once.
         File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(cannot)?;
+        console.has_read(path, Some(&bytes));
     }
     let refuse = |code, span, message: String, help: &str, bytes: &[u8]| {
         let source = Source::new(name.clone(), String::from_utf8_lossy(bytes).into_owned());

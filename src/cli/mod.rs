@@ -3,16 +3,20 @@
 //! Exit codes are a contract: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
 
 mod args;
+mod cache;
 mod check;
+mod completions;
 mod console;
 mod draw;
 mod explain;
 mod flat;
 mod format;
 mod forms;
+mod init;
 mod input;
 mod input_table;
 mod interactive;
+mod manual;
 mod meaning;
 mod net_check;
 mod net_convert;
@@ -23,15 +27,17 @@ mod net_run;
 mod net_structure;
 mod output;
 mod progress;
+mod project;
 mod report;
 mod requirements;
 mod simulate;
 mod translate;
+mod watch;
 
 use std::io;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 use serde_json::json;
 
 use args::{Args, NetVerb, Verb};
@@ -63,7 +69,8 @@ fn reason(error: &io::Error) -> String {
 
 /// Reads the command line and does what it says.
 pub fn run() -> ExitCode {
-    let args = Args::parse();
+    let matches = Args::command().get_matches();
+    let args = Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let console = Console::new(args.colour);
     let wants_json = match &args.verb {
         Verb::Check(arguments) => arguments.json,
@@ -74,7 +81,7 @@ pub fn run() -> ExitCode {
         _ => false,
     };
     let outcome = match args.verb {
-        Verb::Check(arguments) => check::run(&arguments, &console),
+        Verb::Check(arguments) => check::run(&arguments, &project::given(&matches), &console),
         Verb::Translate(arguments) => translate::run(&arguments, &console),
         Verb::Flat(arguments) => flat::run(&arguments, &console),
         Verb::Simulate(arguments) => simulate::run(&arguments, &console),
@@ -85,6 +92,9 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
         Verb::Net(NetVerb::Reduce(arguments)) => net_reduce::run(&arguments, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),
+        Verb::Init(arguments) => init::run(&arguments, &console),
+        Verb::Completions(arguments) => completions::run(&arguments, &console),
+        Verb::Man(arguments) => manual::run(&arguments, &console),
     };
     match outcome {
         Ok(code) => code,

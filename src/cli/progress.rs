@@ -28,26 +28,53 @@ static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
 /// A signal so soon after another is the same one, sent to the program and to its group.
 const TWICE: Duration = Duration::from_millis(500);
 
+/// From now on, Ctrl-C ends the search, and the second one the program.
+pub fn listen() {
+    // If nobody can be told, Ctrl-C ends the program as usual.
+    let _ = ctrlc::set_handler(|| {
+        if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
+            std::process::exit(130);
+        }
+    });
+}
+
+/// Whether whoever started the program wants it to end.
+pub fn is_interrupted() -> bool {
+    INTERRUPTED.get().is_some()
+}
+
+/// Sets the number of threads, once.
+pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
+    static THREADS: OnceLock<Option<String>> = OnceLock::new();
+    let Some(threads) = limits.threads else { return Ok(()) };
+    let error = THREADS.get_or_init(|| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        pool.err().map(|error| error.to_string())
+    });
+    error.as_ref().map_or(Ok(()), |error| Err(Failure::Message(format!("cannot use {threads} threads: {error}"))))
+}
+
 impl Watcher {
     /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
-        if let Some(threads) = limits.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-            pool.map_err(|error| Failure::Message(format!("cannot use {threads} threads: {error}")))?;
-        }
+        use_threads(limits)?;
+        listen();
+        // Drawn on standard error, and only if that is a terminal.
+        Self::drawing(limits, ProgressDrawTarget::stderr())
+    }
+
+    /// Watches one search among several, and shows nothing.
+    pub fn unseen(limits: &Limits) -> Result<Self, Failure> {
+        Self::drawing(limits, ProgressDrawTarget::hidden())
+    }
+
+    fn drawing(limits: &Limits, target: ProgressDrawTarget) -> Result<Self, Failure> {
         let timeout = match limits.timeout.map(Duration::try_from_secs_f64) {
             Some(Err(error)) => return Err(Failure::Message(format!("--timeout: {error}"))),
             Some(Ok(timeout)) => Some(timeout),
             None => None,
         };
-        // If nobody can be told, Ctrl-C ends the program as usual.
-        let _ = ctrlc::set_handler(|| {
-            if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
-                std::process::exit(130);
-            }
-        });
-        // Drawn on standard error, and only if that is a terminal.
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
         Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
     }
@@ -74,7 +101,7 @@ impl Watcher {
                 )
             });
         }
-        if INTERRUPTED.get().is_some() {
+        if is_interrupted() {
             return Some("interrupted".to_owned());
         }
         let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;

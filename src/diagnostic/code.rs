@@ -15,7 +15,7 @@ macro_rules! codes {
     ($($(#[doc = $summary:literal])+ $name:ident = $id:literal,)+) => {
         /// A known problem. The hundreds of its number say where it is found: 01 syntax, 02 declarations and names, 03
         /// instructions, 04 nets and plants, 05 requirements, 06 input tables, 07 the letter of the standard,
-        /// which is asked for with `--strict`.
+        /// which is asked for with `--strict`, 08 project files.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code { $($(#[doc = $summary])+ $name,)+ }
 
@@ -241,6 +241,17 @@ codes! {
     StrictAddressSize = "E0708",
     /// By the letter of edition 2, only a program is executed.
     StrictNoProgram = "E0709",
+
+    /// A project file is not in TOML.
+    ProjectSyntax = "E0801",
+    /// A key means nothing where it stands in a project file.
+    ProjectKey = "E0802",
+    /// A value is not what its key in a project file takes.
+    ProjectValue = "E0803",
+    /// An entry of a project has no program to check.
+    ProjectProgram = "E0804",
+    /// Two entries of a project have the same name.
+    ProjectName = "E0805",
 }
 
 impl Code {

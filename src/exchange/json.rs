@@ -54,6 +54,7 @@ pub fn report(checked: &Checked<'_>, by_line: bool) -> Value {
             "complete": exploration.complete,
             "stop": exploration.stop.to_string(),
             "bytes": exploration.bytes,
+            "cached": exploration.recalled,
         },
         "inputs": inputs(system),
         "assumptions": report.assumptions,
@@ -120,6 +121,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, by_line: bool) -> Value {
         "tags": answer.tags.iter().map(|tag| json!({ "name": tag.name, "value": tag.value })).collect::<Vec<_>>(),
         "origin": answer.origin.as_ref().map(|o| json!({ "file": o.file, "line": o.line, "column": o.column })),
         "verdict": answer.outcome.verdict().word(),
+        "cached": answer.recalled,
         "reason": checked.reason(answer),
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
         "independent_of": answer.independent.map(|what| match what {

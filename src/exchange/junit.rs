@@ -19,16 +19,31 @@ type Xml<'o> = Writer<&'o mut Vec<u8>>;
 /// Writes a report as one test suite.
 #[must_use]
 pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
-    text(|out| suites(checked, stamp, out))
+    write_all(&[(&checked.system.program.name, *checked, stamp)])
 }
 
-fn suites(checked: &Checked<'_>, stamp: Stamp, out: &mut Vec<u8>) -> io::Result<()> {
+/// Writes reports as one test suite each, with a name.
+#[must_use]
+pub fn write_all(reports: &[(&str, Checked<'_>, Stamp)]) -> String {
+    text(|out| {
+        let mut xml = Writer::new_with_indent(out, b' ', 2);
+        xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+        xml.create_element("testsuites").write_inner_content(|xml| {
+            let mut numbered = reports.iter().enumerate();
+            numbered.try_for_each(|(id, (name, checked, stamp))| suite(xml, id, name, checked, *stamp))
+        })?;
+        xml.get_mut().push(b'\n');
+        Ok(())
+    })
+}
+
+fn suite(xml: &mut Xml<'_>, id: usize, name: &str, checked: &Checked<'_>, stamp: Stamp) -> io::Result<()> {
     let count = |verdict| checked.answers().filter(|a| a.outcome.verdict() == verdict).count().to_string();
-    let (name, time) = (printable(&checked.system.program.name), format!("{:.3}", stamp.took.max(0.0)));
+    let (name, time) = (printable(name), format!("{:.3}", stamp.took.max(0.0)));
     let attributes = [
         ("name", name.as_str()),
         ("package", "petril"),
-        ("id", "0"),
+        ("id", &id.to_string()),
         ("tests", &checked.answers().count().to_string()),
         ("failures", &count(Verdict::Violated)),
         ("errors", &count(Verdict::Unknown)),
@@ -36,22 +51,16 @@ fn suites(checked: &Checked<'_>, stamp: Stamp, out: &mut Vec<u8>) -> io::Result<
         ("timestamp", &stamp.to_string()),
         ("hostname", "localhost"),
     ];
-    let mut xml = Writer::new_with_indent(out, b' ', 2);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    xml.create_element("testsuites").write_inner_content(|xml| {
-        xml.create_element("testsuite").with_attributes(attributes).write_inner_content(|xml| {
-            xml.create_element("properties").write_inner_content(|xml| properties(xml, checked))?;
-            for answer in checked.answers() {
-                case(xml, checked, answer)?;
-            }
-            let remarks = BytesText::new(&lines(&output(checked))).into_owned();
-            xml.create_element("system-out").write_text_content(remarks)?;
-            xml.create_element("system-err").write_text_content(BytesText::new(""))?;
-            Ok(())
-        })?;
+    xml.create_element("testsuite").with_attributes(attributes).write_inner_content(|xml| {
+        xml.create_element("properties").write_inner_content(|xml| properties(xml, checked))?;
+        for answer in checked.answers() {
+            case(xml, &name, checked, answer)?;
+        }
+        let remarks = BytesText::new(&lines(&output(checked))).into_owned();
+        xml.create_element("system-out").write_text_content(remarks)?;
+        xml.create_element("system-err").write_text_content(BytesText::new(""))?;
         Ok(())
     })?;
-    xml.get_mut().push(b'\n');
     Ok(())
 }
 
@@ -75,9 +84,9 @@ fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
     Ok(())
 }
 
-fn case(xml: &mut Xml<'_>, checked: &Checked<'_>, answer: &Answer) -> io::Result<()> {
-    let (name, class) = (printable(&answer.name), printable(&checked.system.program.name));
-    let attributes = [("name", name.as_str()), ("classname", &class), ("time", "0")];
+fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) -> io::Result<()> {
+    let name = printable(&answer.name);
+    let attributes = [("name", name.as_str()), ("classname", class), ("time", "0")];
     let element = xml.create_element("testcase").with_attributes(attributes);
     let (kind, body) = match &answer.outcome {
         Outcome::Holds { .. } => return element.write_empty().map(drop),

@@ -1,5 +1,6 @@
 //! How far a search may go, how far it is, and why it stopped.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// What a search may use. It stops at the first limit and keeps what it has.
@@ -32,7 +33,7 @@ pub struct Progress {
 }
 
 /// Why a search ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stop {
     /// There is nothing left to find.
     Complete,

@@ -7,6 +7,7 @@
 //!
 //! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
 
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::circuit::Circuit;
@@ -43,7 +44,7 @@ pub struct ScanSpace<'s> {
 }
 
 /// A scan state in plain form.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanState {
     /// The marking of each plant component, as a position in its list of markings.
     pub plant: Vec<usize>,

@@ -3,6 +3,8 @@
 use std::fmt;
 
 pub use crate::semantics::{Condition, Function};
+use serde::{Deserialize, Serialize};
+
 use crate::semantics::{Type, VarId};
 
 /// What an instruction does to the memory and the current result (CR).
@@ -119,7 +121,7 @@ impl Element {
 }
 
 /// What should not happen while a program runs, and is checked without asking.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Hazard {
     /// A number is not one of its type. It goes on modulo 2^width.
     Overflow,

@@ -49,6 +49,17 @@ pub struct Dag {
     nodes: Vec<Node>,
 }
 
+impl Node {
+    /// The formula about one state that this is made of, if it is.
+    #[must_use]
+    pub fn state(&self) -> Option<&Bound> {
+        match self {
+            Self::State { formula, .. } => Some(formula),
+            _ => None,
+        }
+    }
+}
+
 impl Dag {
     /// The nodes; [`NodeId`] is the position.
     #[must_use]

@@ -7,6 +7,7 @@ use pest::error::Error;
 use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
+use serde::{Deserialize, Serialize};
 
 use super::domain::DomainText;
 use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Quantifier, Temporal};
@@ -49,7 +50,7 @@ pub struct Requirement {
 }
 
 /// A word about a requirement, with a value or without: `severity: high`, `startup`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tag {
     /// The word.
     pub name: String,
@@ -58,7 +59,7 @@ pub struct Tag {
 }
 
 /// Where something stands: a file, and a line and column counted from 1.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// The name of the file, or of what stands for one.
     pub file: String,

@@ -39,13 +39,14 @@ pub use units::{Unit, Units};
 
 use arcs::ArcTable;
 use names::Names;
+use serde::{Deserialize, Serialize};
 
 /// A place, as a position in its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaceId(u32);
 
 /// A transition, as a position in its net.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct TransitionId(u32);
 
 impl PlaceId {

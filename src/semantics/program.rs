@@ -1,5 +1,6 @@
 //! The checked program: names resolved to variables, labels to positions, every value typed.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use super::address::Area;
@@ -60,7 +61,7 @@ pub struct Variable {
 }
 
 /// A variable of flat code, as a position in the program's list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct VarId(pub usize);
 
 /// What a variable of flat code is for.

@@ -1,11 +1,13 @@
 //! What is told of a requirement.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Independence, Outcome};
 use crate::logic::{Origin, Requirement, Tag};
 use crate::semantics::VarId;
 
 /// A requirement and its outcome.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Answer {
     /// Its name.
     pub name: String,
@@ -23,6 +25,8 @@ pub struct Answer {
     pub outcome: Outcome,
     /// If it holds whatever the program does.
     pub independent: Option<Independence>,
+    /// Whether this was found by an earlier check.
+    pub recalled: bool,
 }
 
 impl Answer {
@@ -38,6 +42,7 @@ impl Answer {
             origin: Some(requirement.origin.clone()),
             outcome,
             independent: None,
+            recalled: false,
         }
     }
 
@@ -53,12 +58,13 @@ impl Answer {
             origin: None,
             outcome,
             independent: None,
+            recalled: false,
         }
     }
 }
 
 /// Why a run breaks a requirement. Scans are positions in the run, from 0.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Why {
     /// What the requirement wanted where it is broken, and what there was instead, as sentences.
     pub wanted: Vec<String>,
@@ -73,7 +79,7 @@ pub struct Why {
 }
 
 /// The instruction that last wrote a variable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Writer {
     /// The variable.
     pub variable: VarId,
@@ -87,7 +93,7 @@ pub struct Writer {
 
 /// Inputs that matter: with other values of these, the run, made again, does not break the requirement; with other values of only
 /// some of them it still does, or cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repair {
     /// The inputs, in the order of scans.
     pub changes: Vec<Change>,
@@ -98,7 +104,7 @@ pub struct Repair {
 }
 
 /// Another value of an input in one scan. Values are patterns of its type.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
     /// The scan.
     pub scan: usize,

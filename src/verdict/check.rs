@@ -82,15 +82,22 @@ fn check_scans(
         .map(|hazard| hazards::answer(hazard, hazards::on_scans(space, graph, hazard)));
     let inputs = (!assumptions.is_empty()).then(|| admitted::answer(admitted::outcome(&view)));
     let never = whole(graph).and_then(|graph| never_executed(space, graph, &mut || watch(&done(graph)).is_some()));
-    let formulas = requirements.iter().filter_map(|(_, demand)| demand.formula());
-    let formulas = formulas.chain(assertions.iter().map(|assertion| &assertion.formula));
     Report {
         answers: answers(system, requirements, options, outcomes).into_iter().chain(asserted).collect(),
         checks: ends.chain(hazards).chain(inputs).collect(),
         remarks: remarks(space, graph, never.as_deref().unwrap_or_default()),
-        coverage: Some(coverage(system, formulas, never)),
+        coverage: Some(coverage(system, asked(requirements, options), never)),
         ..report(system, requirements, options, graph)
     }
+}
+
+/// Every formula that is asked about.
+pub(super) fn asked<'r>(
+    requirements: &'r [(Requirement, Demand)],
+    options: &'r Options,
+) -> impl Iterator<Item = &'r Bound> {
+    let required = requirements.iter().filter_map(|(_, demand)| demand.formula());
+    required.chain(options.assertions.iter().map(|assertion| &assertion.formula))
 }
 
 /// A graph, if every reachable state and step is in it.
@@ -105,7 +112,7 @@ fn done(graph: &Graph) -> Progress {
 }
 
 /// The answers to requirements with these outcomes.
-fn answers(
+pub(super) fn answers(
     system: &System,
     requirements: &[(Requirement, Demand)],
     options: &Options,
@@ -196,6 +203,7 @@ fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Opt
             complete: graph.is_complete(),
             stop: graph.stop().clone(),
             bytes: graph.bytes(),
+            recalled: false,
         },
         assumptions: assumptions(system, options, timed),
         answers: Vec::new(),

@@ -1,5 +1,6 @@
 //! Requirements that hold whatever the program does.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use crate::logic::{Assumption, Bound};
@@ -7,7 +8,7 @@ use crate::semantics::Role;
 use crate::translate::System;
 
 /// On what a requirement that holds does not depend.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Independence {
     /// It is true of every system, as `a | !a` is.
     OfEverything,

@@ -10,6 +10,7 @@ mod every_line;
 mod failing;
 mod hazards;
 mod independence;
+mod known;
 mod net;
 mod premises;
 mod remarks;
@@ -22,15 +23,18 @@ pub use answer::{Answer, Change, Repair, Why, Writer};
 pub use check::{Options, check};
 pub use coverage::Coverage;
 pub use independence::Independence;
+pub use known::{Known, check_knowing, fingerprint};
 pub use net::{Branch, Examination, Means, NetReport, Question, Reply, Run, judge, judge_aloud};
 pub use remarks::Remark;
+
+use serde::{Deserialize, Serialize};
 
 use crate::explore::Stop;
 use crate::logic::View;
 use crate::witness::{FiringTrace, ScanTrace};
 
 /// What is known about a requirement.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Outcome {
     /// It holds.
     Holds {
@@ -48,7 +52,7 @@ pub enum Outcome {
 }
 
 /// A premise that never occurs, as text.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Vacuity {
     /// It is true in no reachable state.
     Nowhere(String),
@@ -126,7 +130,7 @@ impl Outcome {
 }
 
 /// A run that shows why, replayed on the net and in the interpreter.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Witness {
     /// The run.
     pub trace: Trace,
@@ -135,7 +139,7 @@ pub struct Witness {
 }
 
 /// A run in one of the two views.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Trace {
     /// Scan by scan.
     Scans(ScanTrace),
@@ -144,7 +148,7 @@ pub enum Trace {
 }
 
 /// Something that is so during a part of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
     /// First state of the run concerned, from 0.
     pub first: usize,
@@ -172,7 +176,7 @@ impl Note {
 }
 
 /// What was explored.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Exploration {
     /// What a state is.
     pub view: View,
@@ -189,6 +193,8 @@ pub struct Exploration {
     pub stop: Stop,
     /// Bytes the graph takes.
     pub bytes: u64,
+    /// Whether this was found by an earlier check.
+    pub recalled: bool,
 }
 
 /// The result of a check.

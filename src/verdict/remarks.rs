@@ -1,12 +1,13 @@
 //! What is worth knowing though nobody asked: outputs that never change, instructions that are never executed.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use crate::explore::{Graph, ScanSpace};
 use crate::semantics::{Role, VarId};
 
 /// Something about all reachable states.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Remark {
     /// An output has this value at the end of every scan.
     NeverChanges(VarId, u64),

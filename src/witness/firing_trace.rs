@@ -1,12 +1,14 @@
 //! Traces of the transition view: firing sequences.
 
+use serde::{Deserialize, Serialize};
+
 use super::replay::{Disagreement, Replay};
 use crate::explore::{Markings, Step};
 use crate::net::TransitionId;
 use crate::translate::System;
 
 /// A run as a list of firings from the initial marking.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FiringTrace {
     /// The transitions in the order of firing.
     pub firings: Vec<TransitionId>,

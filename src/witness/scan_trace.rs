@@ -1,5 +1,6 @@
 //! Traces of the scan view: what the plant did, what the inputs were, and what the scan left.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use super::recalled::Recalled;
@@ -12,7 +13,7 @@ use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
 
 /// A run as a list of scans.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanTrace {
     /// The scans from power-on.
     pub scans: Vec<Scan>,
@@ -21,7 +22,7 @@ pub struct ScanTrace {
 }
 
 /// One scan.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Scan {
     /// What the plant did before it.
     pub moves: Vec<PlantMove>,
@@ -44,7 +45,7 @@ impl Scan {
 }
 
 /// A firing of the plant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlantMove {
     /// The component.
     pub component: usize,

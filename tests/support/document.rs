@@ -41,7 +41,9 @@ pub fn replay_again(text: &str) -> (String, Option<Run>) {
             }
             words => {
                 if let [_, name, options @ ..] = words {
-                    fs::write(folder.path().join(name), content(&block, options)).expect("a file can be written");
+                    let path = folder.path().join(name);
+                    fs::create_dir_all(path.parent().expect("a file is in a folder")).expect("a folder can be made");
+                    fs::write(path, content(&block, options)).expect("a file can be written");
                 }
                 block.iter().for_each(|line| out += &format!("{line}\n"));
             }

@@ -15,6 +15,9 @@ impl Text<'_> {
     /// Everything that is told of a requirement.
     pub(super) fn answer(&self, answer: &Answer, report: &Report) -> String {
         let mut out = self.head(answer);
+        if answer.recalled {
+            out += &self.told("known from an earlier run");
+        }
         match &answer.outcome {
             Outcome::Unknown(reason) => out += &self.told(&format!("because {reason}")),
             Outcome::Holds { vacuous, witness, example } => {

@@ -7,7 +7,7 @@ mod layout;
 mod summary;
 mod why;
 
-pub use layout::counted;
+pub use layout::{counted, indent};
 
 use petril::explore::Stop;
 use petril::logic::View;
@@ -18,7 +18,7 @@ use petril::witness::{Column, Table};
 
 use super::args::Check;
 use super::console::Console;
-use layout::{indent, paragraph};
+use layout::paragraph;
 use summary::{checks, summary, table};
 
 /// Everything the text depends on besides the report.
@@ -52,6 +52,13 @@ impl Text<'_> {
         out += &self.coverage(report);
         out += &self.hints(report);
         out
+    }
+
+    /// What is not as it should be.
+    pub fn failing(&self, report: &Report) -> String {
+        let answers = report.answers.iter().chain(&report.checks);
+        let failing = answers.filter(|answer| answer.outcome.verdict() != Verdict::Holds);
+        failing.map(|answer| format!("\n{}", self.answer(answer, report))).collect()
     }
 
     /// A paragraph that begins with a word and a colon.

@@ -1,5 +1,7 @@
 //! What names mean in a formula about a program: variables, in the transition view also lines and the nodes of its net.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Name, ScanTime, Spot, Vocabulary};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::bound::{Bound, Term};
@@ -9,7 +11,7 @@ use crate::source::Span;
 use crate::translate::{PlaceRole, System};
 
 /// What a state is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum View {
     /// The end of a scan; a step is one scan.
     Scan,

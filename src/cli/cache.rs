@@ -1,0 +1,99 @@
+//! What is known from earlier checks, in files: one for each system that was checked in one way.
+//!
+//! A file is taken only if it was written by this very program, about this very system, and is as it was written; anything else is
+//! as if it were not there. That a file cannot be written is no error: then more is computed the next time.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::{Duration, SystemTime};
+
+use petril::verdict::Known;
+
+use super::output;
+
+/// The folder beside a project file.
+const NAME: &str = ".petril-cache";
+
+/// What is known of larger systems is not kept.
+const MOST: u64 = 64 << 20;
+
+/// How long a file is kept that nobody asks for.
+const PATIENCE: Duration = Duration::from_secs(30 * 24 * 60 * 60);
+
+/// A folder of what is known.
+#[derive(Clone, Debug)]
+pub struct Cache {
+    folder: PathBuf,
+    /// Stands for this program: another one may come to other results.
+    petril: &'static str,
+}
+
+impl Cache {
+    /// The folder that `PETRIL_CACHE` names, or else the one beside a project file.
+    pub fn open(project: Option<&Path>) -> Option<Self> {
+        let named = std::env::var_os("PETRIL_CACHE").filter(|name| !name.is_empty()).map(PathBuf::from);
+        let beside = || project.map(|project| project.parent().unwrap_or(Path::new("")).join(NAME));
+        Some(Self { folder: named.or_else(beside)?, petril: this_program()? })
+    }
+
+    /// What is known of a system.
+    pub fn recall(&self, fingerprint: &str) -> Option<Known> {
+        let path = self.path(fingerprint);
+        let size = fs::metadata(&path).ok()?.len();
+        let text = (size <= MOST).then(|| fs::read_to_string(&path).ok())??;
+        let (head, body) = text.split_once('\n')?;
+        let known = (head == self.head(fingerprint, body)).then(|| serde_json::from_str(body).ok())??;
+        // Somebody asks for it.
+        let _ = File::open(&path).and_then(|file| file.set_modified(SystemTime::now()));
+        Some(known)
+    }
+
+    /// Keeps what is known of a system.
+    pub fn keep(&self, fingerprint: &str, known: &Known) {
+        let Ok(body) = serde_json::to_string(known) else { return };
+        if body.len() as u64 <= MOST && self.prepare().is_ok() {
+            let text = format!("{}\n{body}", self.head(fingerprint, &body));
+            let _ = output::write_text(&self.path(fingerprint), &text);
+        }
+    }
+
+    fn path(&self, fingerprint: &str) -> PathBuf {
+        let name = blake3::hash(format!("{} {fingerprint}", self.petril).as_bytes());
+        self.folder.join(&name.to_hex()[..32])
+    }
+
+    fn head(&self, fingerprint: &str, body: &str) -> String {
+        format!("petril {} {fingerprint} {}", self.petril, blake3::hash(body.as_bytes()))
+    }
+
+    /// Makes the folder if there is none, and clears it of what is old.
+    fn prepare(&self) -> io::Result<()> {
+        static PREPARED: OnceLock<()> = OnceLock::new();
+        fs::create_dir_all(&self.folder)?;
+        if PREPARED.set(()).is_ok() {
+            // Nobody wants this under version control.
+            let _ = output::write_text(&self.folder.join(".gitignore"), "*\n");
+            for entry in fs::read_dir(&self.folder)?.filter_map(Result::ok) {
+                let is_ours = entry.file_name().to_str().is_some_and(|name| name.len() == 32);
+                let age = entry.metadata().and_then(|about| about.modified()).map(|then| then.elapsed());
+                if is_ours && matches!(age, Ok(Ok(age)) if age > PATIENCE) {
+                    let _ = fs::remove_file(entry.path());
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The hash of this program's own file.
+fn this_program() -> Option<&'static str> {
+    static HASH: OnceLock<Option<String>> = OnceLock::new();
+    let hash = || {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update_reader(File::open(std::env::current_exe().ok()?).ok()?).ok()?;
+        Some(hasher.finalize().to_string())
+    };
+    HASH.get_or_init(hash).as_deref()
+}

@@ -1,0 +1,13 @@
+//! `petril completions`: what a shell needs to complete command lines.
+
+use clap::CommandFactory;
+
+use super::Outcome;
+use super::args::{Args, Completions};
+use super::console::Console;
+
+pub fn run(arguments: &Completions, console: &Console) -> Outcome {
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Args::command(), "petril", &mut script);
+    console.print(&String::from_utf8_lossy(&script))
+}

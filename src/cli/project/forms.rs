@@ -1,0 +1,63 @@
+//! The forms of the reports of a project: one file for all programs where the form has room for several, or one for each.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use petril::exchange::{Checked, Stamp, junit, sarif};
+use serde_json::Value;
+
+use super::run::Result;
+use crate::cli::forms::{self, Forms, stamp};
+use crate::cli::{Failure, output, reason};
+
+/// Writes what was asked for about all programs that could be checked.
+pub fn write(forms: &Forms, results: &[Result]) -> std::result::Result<(), Failure> {
+    forms::refuse_twice(forms)?;
+    let done = || results.iter().filter_map(|result| Some((result, result.done.as_ref().ok()?)));
+    let told: Vec<(&str, Checked<'_>, Stamp)> =
+        done().map(|(result, done)| (result.name.as_str(), done.told(), stamp(done.started))).collect();
+    if let Some(file) = &forms.junit {
+        output::write_text(file, &junit::write_all(&told))?;
+    }
+    if let Some(file) = &forms.sarif {
+        let documents = told.iter().map(|(_, checked, stamp)| sarif::write(checked, *stamp));
+        if let Some(document) = documents.reduce(joined) {
+            output::write_text(file, &format!("{document}\n"))?;
+        }
+    }
+    for (result, done) in done() {
+        let within = |folder: &Option<PathBuf>, ending: &str| {
+            folder.as_ref().map(|folder| file(folder, &result.name, ending)).transpose()
+        };
+        let own = Forms {
+            html: within(&forms.html, ".html")?,
+            csv: within(&forms.csv, ".csv")?,
+            trace_csv: within(&forms.trace_csv, "")?,
+            vcd: within(&forms.vcd, "")?,
+            ..Forms::default()
+        };
+        forms::write(&own, &done.told(), done.started)?;
+    }
+    Ok(())
+}
+
+/// The runs of both documents in one.
+fn joined(mut all: Value, mut more: Value) -> Value {
+    if let (Some(runs), Some(others)) = (all["runs"].as_array_mut(), more["runs"].as_array_mut()) {
+        runs.append(others);
+    }
+    all
+}
+
+/// The file of a program in a folder, which is made if there is none. A name like `lines/press` is a path in it, and never one out
+/// of it.
+fn file(folder: &Path, name: &str, ending: &str) -> std::result::Result<PathBuf, Failure> {
+    let inside = Path::new(name).components().filter(|part| matches!(part, Component::Normal(_)));
+    let mut path = folder.join(inside.collect::<PathBuf>()).into_os_string();
+    path.push(ending);
+    let path = PathBuf::from(path);
+    let parent = path.parent().unwrap_or(folder);
+    let cannot = |error| Failure::Message(format!("cannot make the folder `{}`: {}", parent.display(), reason(&error)));
+    fs::create_dir_all(parent).map_err(cannot)?;
+    Ok(path)
+}

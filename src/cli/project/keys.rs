@@ -1,0 +1,156 @@
+//! The keys of a project file: each is an option of `petril check`.
+
+use std::error::Error;
+
+use clap::error::{ContextKind, ContextValue};
+use clap::{Args, Command};
+use petril::diagnostic::{Code, Diagnostic};
+use petril::source::Span;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use crate::cli::args::Check;
+
+/// A key that says how a program is checked.
+pub struct Key {
+    /// As it is written.
+    pub name: &'static str,
+    /// The option it stands for.
+    option: &'static str,
+    kind: Kind,
+}
+
+/// What a key takes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// One text or number.
+    Word,
+    /// True or false.
+    Switch,
+    /// A text, or a list of them.
+    Texts,
+    /// The same, as paths from the folder of the project file.
+    Paths,
+}
+
+const fn key(name: &'static str, option: &'static str, kind: Kind) -> Key {
+    Key { name, option, kind }
+}
+
+/// The keys, in the order in which the guide has them.
+pub const KEYS: [Key; 14] = [
+    key("plants", "plant", Kind::Paths),
+    key("requirements", "require", Kind::Paths),
+    key("formulas", "requirement", Kind::Texts),
+    key("domains", "domain", Kind::Texts),
+    key("view", "view", Kind::Word),
+    key("fair", "fair", Kind::Switch),
+    key("pou", "pou", Kind::Word),
+    key("scan-time", "scan-time", Kind::Word),
+    key("strict", "strict", Kind::Switch),
+    key("overflow", "overflow", Kind::Word),
+    key("div0", "div0", Kind::Word),
+    key("max-states", "max-states", Kind::Word),
+    key("max-memory", "max-memory", Kind::Word),
+    key("timeout", "timeout", Kind::Word),
+];
+
+/// The value of a key: what is typed behind its option.
+#[derive(Clone)]
+pub struct Setting {
+    option: &'static str,
+    kind: Kind,
+    values: Vec<String>,
+}
+
+impl Setting {
+    /// Reads the value of a key.
+    pub fn read(key: &'static Key, value: &Spanned<DeValue<'_>>) -> Result<Self, Vec<Diagnostic>> {
+        let Key { name, option, kind } = *key;
+        let wanted = |what: &str| Diagnostic::new(Code::ProjectValue, span(value), format!("`{name}` takes {what}"));
+        let values = match (kind, value.get_ref()) {
+            (Kind::Word, DeValue::String(text)) => vec![text.to_string()],
+            (Kind::Word, DeValue::Integer(number)) => vec![number.as_str().replace('_', "")],
+            (Kind::Word, DeValue::Float(number)) => vec![number.as_str().replace('_', "")],
+            (Kind::Word, _) => return Err(vec![wanted("a text or a number")]),
+            (Kind::Switch, DeValue::Boolean(true)) => vec![String::new()],
+            (Kind::Switch, DeValue::Boolean(false)) => vec![],
+            (Kind::Switch, _) => return Err(vec![wanted("`true` or `false`")]),
+            (Kind::Texts | Kind::Paths, _) => texts(name, value)?,
+        };
+        if let (Kind::Word, [text]) = (kind, values.as_slice()) {
+            refused(option, text).map_or(Ok(()), |help| {
+                let message = format!("`{text}` is no value of `{name}`");
+                Err(vec![Diagnostic::new(Code::ProjectValue, span(value), message).help(help)])
+            })?;
+        }
+        Ok(Self { option, kind, values })
+    }
+
+    /// Whether this takes the place of another setting. Lists go on where others end.
+    pub fn replaces(&self, other: &Self) -> bool {
+        self.option == other.option && matches!(self.kind, Kind::Word | Kind::Switch)
+    }
+
+    /// The arguments, with the names of files as `path` gives them.
+    pub fn arguments<'s>(&'s self, path: &'s dyn Fn(&str) -> String) -> impl Iterator<Item = String> + 's {
+        self.values.iter().map(move |value| match self.kind {
+            Kind::Switch => format!("--{}", self.option),
+            Kind::Paths => format!("--{}={}", self.option, path(value)),
+            Kind::Word | Kind::Texts => format!("--{}={value}", self.option),
+        })
+    }
+}
+
+/// One text, or a list of them.
+pub fn texts(name: &str, value: &Spanned<DeValue<'_>>) -> Result<Vec<String>, Vec<Diagnostic>> {
+    let wanted = |value: &Spanned<DeValue<'_>>| {
+        let message = format!("`{name}` takes a text, or a list of texts");
+        Diagnostic::new(Code::ProjectValue, span(value), message).help("write it like `[\"one\", \"two\"]`")
+    };
+    match value.get_ref() {
+        DeValue::String(text) => Ok(vec![text.to_string()]),
+        DeValue::Array(values) => {
+            let text = |value: &Spanned<DeValue<'_>>| value.get_ref().as_str().map(str::to_owned);
+            let wrong: Vec<_> = values.iter().filter(|value| text(value).is_none()).map(wanted).collect();
+            if wrong.is_empty() { Ok(values.iter().filter_map(text).collect()) } else { Err(wrong) }
+        }
+        _ => Err(vec![wanted(value)]),
+    }
+}
+
+/// Where a value stands.
+pub fn span<T>(value: &Spanned<T>) -> Span {
+    Span::new(value.span().start, value.span().end)
+}
+
+/// What the command line says against a value, if it does not take it.
+fn refused(option: &str, value: &str) -> Option<String> {
+    let command = Check::augment_args(Command::new("check"));
+    let error = command
+        .try_get_matches_from([
+            "check".to_owned(),
+            format!("--{option}={value}"),
+            "--".to_owned(),
+            "program".to_owned(),
+        ])
+        .err()?;
+    Some(match (error.get(ContextKind::ValidValue), error.source()) {
+        (Some(ContextValue::Strings(values)), _) if !values.is_empty() => format!("it is one of {}", values.join(", ")),
+        (_, Some(reason)) => reason.to_string(),
+        _ => format!("`petril check --help` says what `--{option}` takes"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_is_an_option() {
+        let command = Check::augment_args(Command::new("check"));
+        for Key { name, option, .. } in &KEYS {
+            assert!(command.get_arguments().any(|argument| argument.get_long() == Some(option)), "{name}");
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Projects: several programs, each with its plants and requirements, checked by one command.
+
+mod file;
+mod forms;
+mod given;
+mod keys;
+mod programs;
+mod run;
+mod summary;
+
+pub use given::given;
+pub use run::run;

@@ -1,0 +1,76 @@
+//! Which programs an entry of a project is about: one, or all that a pattern matches.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use petril::diagnostic::{Code, Diagnostic};
+use petril::source::Span;
+
+/// What an entry says of its programs, and where.
+#[derive(Default)]
+pub struct Programs {
+    /// `program`
+    pub one: Option<(String, Span)>,
+    /// `programs`
+    pub patterns: Option<(Vec<String>, Span)>,
+}
+
+/// The programs, from the folder of the project file, each with the name it has in a summary.
+pub fn matches(
+    folder: &Path,
+    place: Span,
+    name: Option<String>,
+    programs: Programs,
+) -> Result<Vec<(String, String)>, Diagnostic> {
+    let wrong =
+        |span, message: String, help: &str| Err(Diagnostic::new(Code::ProjectProgram, span, message).help(help));
+    match programs {
+        Programs { one: Some((program, _)), patterns: None } => {
+            Ok(vec![(name.unwrap_or_else(|| without_ending(&program)), program)])
+        }
+        Programs { one: None, patterns: Some((patterns, span)) } => {
+            if name.is_some() {
+                let message = "a name is for one program, and `programs` may be many".to_owned();
+                return wrong(span, message, "leave `name` out: each is called like its file");
+            }
+            let mut found = Vec::new();
+            for pattern in patterns {
+                match files(folder, &pattern) {
+                    Ok(files) if files.is_empty() => {
+                        let help = "paths begin at the folder of the project file";
+                        return wrong(span, format!("`{pattern}` matches no file"), help);
+                    }
+                    Ok(files) => found.extend(files),
+                    Err(reason) => {
+                        let help = "`*` stands for any letters, `**` for any folders, `?` for one letter";
+                        return wrong(span, format!("`{pattern}` is no pattern: {reason}"), help);
+                    }
+                }
+            }
+            // Several patterns may match a file; it is one program.
+            let mut seen = BTreeSet::new();
+            found.retain(|program| seen.insert(program.clone()));
+            Ok(found.into_iter().map(|program| (without_ending(&program), program)).collect())
+        }
+        Programs { one: Some(_), patterns: Some((_, span)) } => {
+            wrong(span, "this entry has `program` and `programs`".to_owned(), "leave one of them out")
+        }
+        Programs { one: None, patterns: None } => wrong(
+            place,
+            "this entry has no program".to_owned(),
+            "name one: `program = \"press.il\"`, or several: `programs = \"lines/*.il\"`",
+        ),
+    }
+}
+
+fn without_ending(path: &str) -> String {
+    Path::new(path).with_extension("").display().to_string()
+}
+
+/// The files a pattern matches, in the order of their names.
+fn files(folder: &Path, pattern: &str) -> Result<Vec<String>, String> {
+    let whole = Path::new(&glob::Pattern::escape(&folder.display().to_string())).join(pattern);
+    let paths = glob::glob(&whole.display().to_string()).map_err(|error| error.msg.to_owned())?;
+    let files = paths.filter_map(Result::ok).filter(|path| path.is_file());
+    Ok(files.map(|path| path.strip_prefix(folder).unwrap_or(&path).display().to_string()).collect())
+}

@@ -1,0 +1,172 @@
+//! A run of a project: all programs beside each other, told in their order.
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use petril::exchange::json;
+use petril::verdict::Verdict;
+use serde_json::{Value, json};
+
+use super::file::{Entry, NAME, find, read};
+use super::forms;
+use super::given::arguments;
+use super::summary::{Line, summary};
+use crate::cli::args::Check;
+use crate::cli::cache::Cache;
+use crate::cli::check::{Done, checked, code};
+use crate::cli::console::{Console, Told};
+use crate::cli::progress::{Watcher, listen, use_threads};
+use crate::cli::report::Text;
+use crate::cli::{Failure, Outcome};
+
+/// A program of the project that was checked, or could not be.
+pub struct Result {
+    /// What it is called.
+    pub name: String,
+    pub arguments: Check,
+    pub done: std::result::Result<Done, Failure>,
+    /// What was said of its files, for those who want JSON.
+    pub diagnostics: Vec<Value>,
+}
+
+pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
+    let nothing = || {
+        Failure::Message(format!(
+            "there is no program to check, and no `{NAME}` here or above\n  name a program, or write a project file; `petril init` \
+             writes an example of both"
+        ))
+    };
+    let path = command.project.clone().or_else(find).ok_or_else(nothing)?;
+    let entries = chosen(read(&path, console)?, &command.only)?;
+    let checks = entries.into_iter().map(|entry| Ok((arguments(&entry, given)?, entry)));
+    let checks: Vec<(Check, Entry)> = checks.collect::<std::result::Result<_, Failure>>()?;
+    use_threads(&command.limits)?;
+    listen();
+    let cache = if command.no_cache { None } else { Cache::open(Some(&path)) };
+    let results = all(checks, cache.as_ref(), console);
+    forms::write(&command.forms, &results)?;
+    if command.json {
+        console.print_json(document(&path, &results))?;
+    } else {
+        console.print(&text(&path, &results, console))?;
+    }
+    Ok(worst(&results))
+}
+
+/// The programs that are asked for: all, or those whose names match.
+fn chosen(entries: Vec<Entry>, only: &[String]) -> std::result::Result<Vec<Entry>, Failure> {
+    if only.is_empty() {
+        return Ok(entries);
+    }
+    let pattern = |text: &String| {
+        let wrong =
+            |error: glob::PatternError| Failure::Message(format!("--only: `{text}` is no pattern: {}", error.msg));
+        let pattern = glob::Pattern::new(text).map_err(wrong)?;
+        if entries.iter().any(|entry| pattern.matches(&entry.name)) {
+            return Ok(pattern);
+        }
+        let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        let nearest = petril::diagnostic::nearest(text, names.iter().copied());
+        let help =
+            nearest.map_or_else(|| format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
+        Err(Failure::Message(format!("--only: no program of the project is called `{text}`\n  {help}")))
+    };
+    let patterns: Vec<glob::Pattern> = only.iter().map(pattern).collect::<std::result::Result<_, Failure>>()?;
+    Ok(entries.into_iter().filter(|entry| patterns.iter().any(|pattern| pattern.matches(&entry.name))).collect())
+}
+
+/// Checks all programs, several at once. What they say is printed in their order.
+fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) -> Vec<Result> {
+    let bar = ProgressBar::with_draw_target(Some(checks.len() as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} programs, {elapsed}: {wide_msg}") {
+        bar.set_style(style);
+    }
+    let (next, colour) = (AtomicUsize::new(0), console.colour());
+    let (found, results) = mpsc::channel();
+    // These threads wait for the ones that compute, of which there is one for each processor. A program that is checked never takes
+    // up the work on another one in between.
+    let workers = rayon::current_num_threads().min(checks.len());
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            let (found, next, checks, bar) = (found.clone(), &next, &checks, &bar);
+            scope.spawn(move || {
+                while let Some((position, (arguments, entry))) = take(next, checks) {
+                    bar.set_message(entry.name.clone());
+                    let own = Console::holding(colour);
+                    let watcher = Watcher::unseen(&arguments.limits);
+                    let done = watcher.and_then(|watcher| checked(arguments, &entry.program, cache, &own, &watcher));
+                    bar.inc(1);
+                    // Who waits for this is still there.
+                    let _ = found.send((position, done, own.told()));
+                }
+            });
+        }
+    });
+    drop(found);
+    bar.finish_and_clear();
+    let mut results: Vec<(usize, std::result::Result<Done, Failure>, Told)> = results.iter().collect();
+    results.sort_by_key(|&(position, ..)| position);
+    let told = |((arguments, entry), (_, done, mut told)): ((Check, Entry), (usize, _, Told))| {
+        let diagnostics = told.take_diagnostics();
+        console.tell(told);
+        if let Err(Failure::Message(message)) = &done {
+            console.error(&format!("{}: {message}", entry.name));
+        }
+        Result { name: entry.name, arguments, done, diagnostics }
+    };
+    checks.into_iter().zip(results).map(told).collect()
+}
+
+/// The next one that nobody has taken.
+fn take<'a, T>(next: &AtomicUsize, of: &'a [T]) -> Option<(usize, &'a T)> {
+    let position = next.fetch_add(1, Ordering::Relaxed);
+    Some((position, of.get(position)?))
+}
+
+/// The summary, and what is not as it should be.
+fn text(path: &Path, results: &[Result], console: &Console) -> String {
+    let lines: Vec<Line<'_>> = results.iter().map(|result| Line::of(&result.name, result.done.as_ref().ok())).collect();
+    let mut out = summary(path, &lines, console);
+    for Result { name, arguments, done, .. } in results {
+        let Ok(Done { system, source, report, .. }) = done else { continue };
+        if report.verdict() != Verdict::Holds {
+            let text = Text { system, source, arguments, console };
+            out += &format!("\n{name}: {}\n{}", source.name(), text.failing(report));
+        }
+    }
+    out
+}
+
+fn document(path: &Path, results: &[Result]) -> Value {
+    let program = |result: &Result| {
+        let mut report = match &result.done {
+            Ok(done) => json::report(&done.told(), result.arguments.by_line || result.arguments.details),
+            Err(Failure::Message(message)) => json!({ "verdict": "error", "error": message }),
+            Err(Failure::Reported) => json!({ "verdict": "error", "error": null }),
+        };
+        report["diagnostics"] = result.diagnostics.clone().into();
+        json!({ "name": result.name, "verdict": report["verdict"], "report": report })
+    };
+    let verdicts = results.iter().filter_map(|result| result.done.as_ref().ok()).map(|done| done.report.verdict());
+    let is_wrong = results.iter().any(|result| result.done.is_err());
+    let verdict = if is_wrong { "error" } else { verdicts.max().unwrap_or(Verdict::Holds).word() };
+    json!({
+        "project": path.display().to_string(),
+        "programs": results.iter().map(program).collect::<Vec<_>>(),
+        "verdict": verdict,
+    })
+}
+
+/// The exit code of the worst: input that cannot be used, then what is violated, then what is unknown.
+fn worst(results: &[Result]) -> ExitCode {
+    if results.iter().any(|result| result.done.is_err()) {
+        return ExitCode::from(2);
+    }
+    let verdicts = results.iter().filter_map(|result| result.done.as_ref().ok()).map(|done| done.report.verdict());
+    code(verdicts.max().unwrap_or(Verdict::Holds))
+}

@@ -1,0 +1,105 @@
+//! The table of a project: a line for each program.
+
+use std::path::Path;
+
+use petril::verdict::{Answer, Verdict};
+use petril::witness::{Column, Table};
+
+use crate::cli::check::Done;
+use crate::cli::console::Console;
+use crate::cli::report::{counted, indent};
+
+/// What the table says of a program.
+pub struct Line<'a> {
+    name: &'a str,
+    /// Nothing if the program could not be checked.
+    done: Option<&'a Done>,
+}
+
+impl<'a> Line<'a> {
+    pub fn of(name: &'a str, done: Option<&'a Done>) -> Self {
+        Self { name, done }
+    }
+
+    fn answers(&self) -> &'a [Answer] {
+        self.done.map(|done| done.report.answers.as_slice()).unwrap_or_default()
+    }
+
+    fn count(&self, verdict: Verdict) -> usize {
+        count(self.answers(), verdict)
+    }
+
+    fn known(&self) -> usize {
+        self.answers().iter().filter(|answer| answer.recalled).count()
+    }
+
+    /// The worst of what is checked without asking.
+    fn checks(&self, done: &Done) -> &'static str {
+        let verdicts = done.report.checks.iter().map(|check| check.outcome.verdict());
+        match verdicts.max().unwrap_or(Verdict::Holds) {
+            Verdict::Holds => "hold",
+            verdict => verdict.word(),
+        }
+    }
+}
+
+fn count(answers: &[Answer], verdict: Verdict) -> usize {
+    answers.iter().filter(|answer| answer.outcome.verdict() == verdict).count()
+}
+
+/// The table, and one sentence about all programs.
+pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
+    let mut out = format!("project {}, {}\n\n", path.display(), counted(lines.len(), "program"));
+    let mut table = Table::new(vec![
+        vec![Column::left("program")],
+        vec![Column::right("requirements"), Column::right("hold"), Column::right("violated"), Column::right("unknown")],
+        vec![Column::left("checks"), Column::right("states"), Column::right("known")],
+    ]);
+    for line in lines {
+        let number = |number: usize| number.to_string();
+        table.row(match line.done {
+            Some(done) => vec![
+                line.name.to_owned(),
+                number(line.answers().len()),
+                number(line.count(Verdict::Holds)),
+                number(line.count(Verdict::Violated)),
+                number(line.count(Verdict::Unknown)),
+                line.checks(done).to_owned(),
+                number(done.report.exploration.states),
+                number(line.known()),
+            ],
+            None => {
+                let mut row = vec![String::new(); 8];
+                row[0] = line.name.to_owned();
+                row[5] = "error".to_owned();
+                row
+            }
+        });
+    }
+    out += &indent(&table.within(console.output_width().saturating_sub(4)));
+    out += &format!("\n{}{}", programs(lines), requirements(lines));
+    out
+}
+
+/// `3 programs: 1 holds, …`
+fn programs(lines: &[Line<'_>]) -> String {
+    let with =
+        |verdict| lines.iter().filter_map(|line| line.done).filter(|done| done.report.verdict() == verdict).count();
+    let wrong = lines.iter().filter(|line| line.done.is_none()).count();
+    let mut parts = vec![format!("{} as they should be", with(Verdict::Holds))];
+    parts.extend((with(Verdict::Violated) > 0).then(|| format!("{} with something violated", with(Verdict::Violated))));
+    parts.extend((with(Verdict::Unknown) > 0).then(|| format!("{} undecided", with(Verdict::Unknown))));
+    parts.extend((wrong > 0).then(|| format!("{wrong} with errors")));
+    format!("{}: {}\n", counted(lines.len(), "program"), parts.join(", "))
+}
+
+fn requirements(lines: &[Line<'_>]) -> String {
+    let sum = |of: &dyn Fn(&Line<'_>) -> usize| lines.iter().map(of).sum::<usize>();
+    let of = |verdict| sum(&|line| line.count(verdict));
+    let mut parts = vec![format!("{} hold", of(Verdict::Holds))];
+    parts.extend((of(Verdict::Violated) > 0).then(|| format!("{} violated", of(Verdict::Violated))));
+    parts.extend((of(Verdict::Unknown) > 0).then(|| format!("{} unknown", of(Verdict::Unknown))));
+    let known = sum(&|line| line.known());
+    let known = if known > 0 { format!(" ({known} known from an earlier run)") } else { String::new() };
+    format!("{}: {}{known}\n", counted(sum(&|line| line.answers().len()), "requirement"), parts.join(", "))
+}
