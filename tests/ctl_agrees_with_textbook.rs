@@ -4,106 +4,13 @@
 
 mod support;
 
-use fixedbitset::FixedBitSet;
-use petril::explore::{Budget, Graph, StateSpace, Step, explore};
-use petril::logic::{Bound, Dag, Node, Quantifier, evidence, label};
+use petril::explore::Graph;
+use petril::logic::{Bound, Dag, Fairness, Node, Quantifier, evidence, label};
 use petril::semantics::VarId;
 use proptest::prelude::*;
-use support::naive_ctl::Kripke;
+use support::naive_ctl::{Fair, Kripke};
 use support::random_formula;
-
-/// A graph given by lists. State s is of kernel `s / flavours`, and has the successors of its kernel; as a word it is kernel
-/// and flavour side by side. Bit v of `marks[s]` is variable v.
-#[derive(Debug)]
-struct Given {
-    flavours: usize,
-    /// By kernel.
-    successors: Vec<Vec<usize>>,
-    marks: Vec<u8>,
-    initial: Vec<usize>,
-    /// Whether the search is told that steps depend on the kernel only.
-    shared: bool,
-}
-
-/// The bits of a word that are the kernel.
-const KERNEL: [u64; 1] = [0xff];
-
-impl Given {
-    fn pack(&self, state: usize) -> u64 {
-        (state / self.flavours) as u64 | ((state % self.flavours) as u64) << 8
-    }
-
-    fn unpack(&self, word: u64) -> usize {
-        (word & KERNEL[0]) as usize * self.flavours + (word >> 8) as usize
-    }
-
-    fn atom(&self, formula: &Bound, state: usize) -> bool {
-        formula.holds_in(&Marks(self.marks[state])).unwrap()
-    }
-
-    fn explored(&self, states: u64) -> Graph {
-        explore(self, Budget { states, ..Budget::default() }, &mut |_| None)
-    }
-
-    fn name(&self, graph: &Graph, id: u32) -> usize {
-        self.unpack(graph.state(id)[0])
-    }
-
-    fn kripke(&self, fair: Option<Vec<bool>>) -> Kripke {
-        let states = 0..self.successors.len() * self.flavours;
-        Kripke { successors: states.map(|s| self.successors[s / self.flavours].clone()).collect(), fair }
-    }
-}
-
-impl StateSpace for Given {
-    fn words(&self) -> usize {
-        1
-    }
-
-    fn initial(&self, visit: &mut dyn FnMut(Step<'_>)) {
-        self.initial.iter().for_each(|&state| visit(Step::To(&[self.pack(state)])));
-    }
-
-    fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>)) {
-        let kernel = &self.successors[(state[0] & KERNEL[0]) as usize];
-        kernel.iter().for_each(|&next| visit(Step::To(&[self.pack(next)])));
-    }
-
-    fn relevant(&self) -> Option<&[u64]> {
-        self.shared.then_some(&KERNEL)
-    }
-}
-
-struct Marks(u8);
-
-impl petril::logic::Valuation for Marks {
-    fn value(&self, variable: VarId) -> u64 {
-        u64::from(self.0 >> variable.0 & 1)
-    }
-    fn is_marked(&self, _: petril::net::PlaceId) -> bool {
-        unreachable!()
-    }
-    fn tokens(&self, _: petril::net::PlaceId) -> u64 {
-        unreachable!()
-    }
-    fn is_enabled(&self, _: petril::net::TransitionId) -> bool {
-        unreachable!()
-    }
-    fn is_deadlock(&self) -> bool {
-        unreachable!()
-    }
-}
-
-fn given() -> impl Strategy<Value = Given> {
-    (1..8_usize, 1..4_usize, any::<bool>()).prop_flat_map(|(kernels, flavours, shared)| {
-        let n = kernels * flavours;
-        let successors = proptest::collection::vec(proptest::collection::vec(0..n, 0..4), kernels);
-        let marks = proptest::collection::vec(any::<u8>(), n);
-        let initial = proptest::collection::vec(0..n, 1..3);
-        let parts = (successors, marks, initial);
-        parts.prop_map(move |(successors, marks, initial)| Given { flavours, successors, marks, initial, shared })
-    })
-}
+use support::random_graph::{Given, Marks, given, given_in_part, given_of, masks};
 
 /// A formula under one more operator, one of those that like to meet themselves.
 fn within(f: Bound, operator: usize) -> Bound {
@@ -127,11 +34,11 @@ fn found(
     graph: &Graph,
     formula: &Bound,
     negated: bool,
-    fair: Option<&FixedBitSet>,
+    fairness: Option<&Fairness>,
 ) -> Vec<(usize, bool)> {
     let mut dag = Dag::default();
     let node = dag.add(formula, negated);
-    let labels = label(graph, &dag, &|f, id| given.atom(f, given.name(graph, id)), fair);
+    let labels = label(graph, &dag, &|f, id| given.atom(f, given.name(graph, id)), fairness);
     graph.ids().map(|id| (given.name(graph, id), labels.of(node).contains(id as usize))).collect()
 }
 
@@ -140,7 +47,7 @@ proptest! {
 
     #[test]
     fn on_whole_graphs(given in given(), formula in formula()) {
-        let kripke = given.kripke(None);
+        let kripke = given.kripke();
         let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
         let graph = given.explored(u64::MAX);
         for (state, holds) in found(&given, &graph, &formula, false, None) {
@@ -152,22 +59,41 @@ proptest! {
     }
 
     #[test]
-    fn under_fairness(given in given(), formula in formula()) {
-        // Every state gets a way to a fair state, as the checker asks: one more kernel, to which and from which all lead.
-        let mut given = given;
-        let n = given.marks.len();
-        given.successors.iter_mut().for_each(|next| next.push(n));
-        given.successors.push((0..n).collect());
-        given.marks.extend(std::iter::repeat_n(5, given.flavours));
-        let is_fair = |s: usize| s >= n || given.marks[s] & 128 != 0;
-        let truth = given.kripke(Some((0..given.marks.len()).map(is_fair).collect()));
-        let truth = truth.states(&formula, &|f, s| given.atom(f, s));
+    fn under_fairness(given in given_of(6, 3), masks in masks(), formula in formula()) {
+        let kripke = masks.kripke(&given);
+        let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
         let graph = given.explored(u64::MAX);
-        let mut fair = FixedBitSet::with_capacity(graph.len());
-        fair.extend(graph.ids().filter(|&id| is_fair(given.name(&graph, id))).map(|id| id as usize));
+        let fairness = masks.on(&given, &graph);
+        for id in graph.ids() {
+            let counts = kripke.counting()[given.name(&graph, id)];
+            prop_assert_eq!(fairness.surely().contains(id as usize), counts);
+            prop_assert_eq!(fairness.possibly().contains(id as usize), counts);
+        }
         for negated in [false, true] {
-            for (state, holds) in found(&given, &graph, &formula, negated, Some(&fair)) {
+            for (state, holds) in found(&given, &graph, &formula, negated, Some(&fairness)) {
                 prop_assert_eq!(holds, truth[state] != negated, "state {}", state);
+            }
+        }
+    }
+
+    #[test]
+    fn under_fairness_on_parts_of_graphs(
+        (given, states) in given_in_part(6, 3),
+        masks in masks(),
+        formula in formula(),
+    ) {
+        let kripke = masks.kripke(&given);
+        let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
+        let graph = given.explored(states);
+        let fairness = masks.on(&given, &graph);
+        for id in graph.ids() {
+            let counts = kripke.counting()[given.name(&graph, id)];
+            prop_assert!(counts || !fairness.surely().contains(id as usize));
+            prop_assert!(!counts || fairness.possibly().contains(id as usize));
+        }
+        for negated in [false, true] {
+            for (state, shown) in found(&given, &graph, &formula, negated, Some(&fairness)) {
+                prop_assert!(!shown || truth[state] != negated, "state {} is claimed wrongly", state);
             }
         }
     }
@@ -183,10 +109,13 @@ proptest! {
         let formula = around.into_iter().fold(formula, within);
         // Every state gets a way to a fair state.
         let n = given.marks.len();
-        let mut kripke = given.kripke(fair.then(|| (0..=n).map(|s| s == n || given.marks[s] & 128 != 0).collect::<Vec<_>>()));
+        let mut successors = given.lists();
+        let mut kripke = Kripke::new(successors.clone());
         if fair {
-            kripke.successors.iter_mut().for_each(|next| next.push(n));
-            kripke.successors.push((0..n).collect());
+            successors.iter_mut().for_each(|next| next.push(n));
+            successors.push((0..n).collect());
+            let again = (0..=n).map(|s| s == n || given.marks[s] & 128 != 0).collect();
+            kripke = Kripke::under(Fair::Again(vec![again]), successors);
         }
         let marks = |s: usize| given.marks.get(s).copied().unwrap_or(5);
         let atom = |f: &Bound, s: usize| f.holds_in(&Marks(marks(s))).unwrap();
@@ -196,8 +125,8 @@ proptest! {
     }
 
     #[test]
-    fn on_parts_of_graphs(given in given(), formula in formula(), states in 1..6_u64) {
-        let kripke = given.kripke(None);
+    fn on_parts_of_graphs((given, states) in given_in_part(8, 4), formula in formula()) {
+        let kripke = given.kripke();
         let truth = kripke.states(&formula, &|f, s| given.atom(f, s));
         let graph = given.explored(states);
         for negated in [false, true] {
@@ -208,13 +137,20 @@ proptest! {
     }
 
     #[test]
-    fn evidence_is_a_run_that_shows_it(given in given(), formula in formula()) {
-        let graph = given.explored(u64::MAX);
+    fn evidence_is_a_run_that_shows_it(
+        (given, states) in given_in_part(6, 3),
+        masks in proptest::option::of(masks()),
+        formula in formula(),
+    ) {
+        let graph = given.explored(states);
+        let fairness = masks.as_ref().map(|masks| masks.on(&given, &graph));
         let mut dag = Dag::default();
         let node = dag.add(&formula, false);
-        let labels = label(&graph, &dag, &|f, id| given.atom(f, given.name(&graph, id)), None);
-        let somewhere = graph.initial().iter().any(|&s| labels.of(node).contains(s as usize));
-        let evidence = evidence(&graph, &dag, &labels, None, node, graph.initial());
+        let labels = label(&graph, &dag, &|f, id| given.atom(f, given.name(&graph, id)), fairness.as_ref());
+        let counts = |id: &u32| fairness.as_ref().is_none_or(|fairness| fairness.surely().contains(*id as usize));
+        let starts: Vec<u32> = graph.initial().iter().copied().filter(counts).collect();
+        let somewhere = starts.iter().any(|&s| labels.of(node).contains(s as usize));
+        let evidence = evidence(&graph, &dag, &labels, fairness.as_ref(), node, &starts);
         prop_assert_eq!(evidence.is_some(), somewhere);
         let Some(evidence) = evidence else { return Ok(()) };
         prop_assert!(graph.initial().contains(&evidence.states[0]));
@@ -225,13 +161,21 @@ proptest! {
         for claim in &evidence.claims {
             prop_assert!(labels.of(claim.node).contains(evidence.states[claim.position] as usize));
         }
+        // The run counts, or can be continued so that it does.
+        let names: Vec<usize> = evidence.states.iter().map(|&s| given.name(&graph, s)).collect();
+        if let Some(masks) = &masks {
+            let kripke = masks.kripke(&given);
+            match evidence.loop_start {
+                Some(start) => prop_assert!(masks.are_met_by(&names[start..]), "{:?} {:?}", names, masks),
+                None => prop_assert!(kripke.counting()[names[names.len() - 1]]),
+            }
+        }
         // The formula itself, read on this one run, holds: the run is a graph in which every path is it.
         if only_existential(&dag, node) {
             let n = evidence.states.len();
             let mut successors: Vec<Vec<usize>> = (1..n).map(|s| vec![s]).collect();
             successors.push(evidence.loop_start.into_iter().collect());
-            let run = Kripke { successors, fair: None };
-            let names: Vec<usize> = evidence.states.iter().map(|&s| given.name(&graph, s)).collect();
+            let run = Kripke::new(successors);
             let holds = run.states(&formula, &|f, s| given.atom(f, names[s]));
             prop_assert!(holds[0], "{:?} does not show {:?}", evidence, formula);
         }
@@ -245,7 +189,14 @@ fn a_run_does_not_mix_two_parts_of_a_conjunction() {
     // 0 steps to itself and to 1, which ends; p holds in 0, r in 1.
     let (p, r, never) = (0, 1, 2);
     let marks = vec![1 << p, 1 << r];
-    let given = Given { flavours: 1, successors: vec![vec![0, 1], vec![]], marks, initial: vec![0], shared: false };
+    let given = Given {
+        flavours: 1,
+        successors: vec![vec![0, 1], vec![]],
+        marks,
+        initial: vec![0],
+        shared: false,
+        hidden: vec![false; 2],
+    };
     let variable = |v| Box::new(Bound::Variable(VarId(v)));
     let next_r = Bound::Next(Quantifier::Some, variable(r));
     let hold = Bound::Truth(false);

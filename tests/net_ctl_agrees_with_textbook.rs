@@ -83,7 +83,7 @@ fn textbook(net: &Net, formulas: &[Bound]) -> Option<Vec<bool>> {
     let numbers: BTreeMap<&Marking, usize> = markings.iter().enumerate().map(|(number, &m)| (m, number)).collect();
     let mut successors = vec![Vec::new(); markings.len()];
     naive.steps.iter().for_each(|(from, _, to)| successors[numbers[from]].push(numbers[to]));
-    let kripke = Kripke { successors, fair: None };
+    let kripke = Kripke::new(successors);
     let initial = numbers[&model.initial];
     let atom = |formula: &Bound, state: usize| formula.holds_in(&At(&model, markings[state])).unwrap();
     Some(formulas.iter().map(|formula| kripke.states(formula, &atom)[initial]).collect())

@@ -26,7 +26,9 @@ fn seen(formula: &Bound, keep: &mut Keep) {
             [f, g].into_iter().for_each(|f| seen(f, keep));
         }
         Bound::Truth(_) => {}
-        Bound::Variable(_) | Bound::Bit(..) | Bound::Next(..) | Bound::Until { .. } => panic!("not about one marking"),
+        Bound::Variable(_) | Bound::Bit(..) | Bound::Next(..) | Bound::Until { .. } | Bound::Ltl(_) => {
+            panic!("not about one marking")
+        }
     }
 }
 

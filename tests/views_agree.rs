@@ -11,16 +11,22 @@
 //! | A … | by duality |
 //!
 //! f holds in every state after the first scan iff !E[!at End U at End & !f'] holds in the initial marking.
+//! Fairness assumptions about inputs and plants mean the same in both.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod support;
 
+use fixedbitset::FixedBitSet;
 use petril::explore::{Budget, Markings, ScanSpace, explore};
-use petril::logic::{Bound, Dag, MarkingValuation, Quantifier, ScanValuation, label};
+use petril::logic::{
+    Bound, Constraints, Dag, Fairness, MarkingValuation, Quantifier, ScanValuation, View, bind_fairness, label,
+    parse_fairness,
+};
 use petril::semantics::VarId;
+use petril::source::Source;
 use petril::translate::{PlaceRole, System};
 use proptest::prelude::*;
-use support::naive_ctl::Kripke;
+use support::naive_ctl::{Fair, Kripke};
 use support::{random_formula, random_program};
 
 use Quantifier::Some as Exists;
@@ -67,7 +73,9 @@ fn counterpart(f: &Bound, system: &System) -> Bound {
             not(counterpart(&exists(!weak, not(g.clone()), and(not(f), not(g))), system))
         }
         Bound::Bit(..) => unreachable!("the programs have truth values only"),
-        Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => unreachable!("scan states have none of them"),
+        Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock | Bound::Ltl(_) => {
+            unreachable!("scan states have none of them")
+        }
     }
 }
 
@@ -86,20 +94,29 @@ fn term(t: &petril::logic::Term, system: &System) -> petril::logic::Term {
     }
 }
 
-/// Whether f holds after every first scan, in the scan view, by the checker; `None` if some scan never ends.
-fn in_scan_view(system: &System, f: &Bound) -> Option<bool> {
+/// Whether f holds after every first scan from which a run counts, in the scan view, by the checker; `None` if some scan never
+/// ends. Runs count in which each of these is true again and again.
+fn in_scan_view(system: &System, f: &Bound, again: &[Bound]) -> Option<bool> {
     let space = ScanSpace::new(system);
     let graph = explore(&space, Budget::default(), &mut |_| None);
     let mut dag = Dag::default();
     let node = dag.add(f, false);
     let holds = |f: &Bound, id: u32| f.holds_in(&ScanValuation(&space, graph.state(id))).unwrap();
-    let labels = label(&graph, &dag, &holds, None);
-    let everywhere = graph.initial().iter().all(|&s| labels.of(node).contains(s as usize));
+    let weak = again.iter().map(|goal| {
+        let mut set = FixedBitSet::with_capacity(graph.len());
+        set.extend(graph.ids().filter(|&id| holds(goal, id)).map(|id| id as usize));
+        set
+    });
+    let fairness = Fairness::on(&graph, Constraints { weak: weak.collect(), strong: vec![] });
+    let fairness = (!again.is_empty()).then_some(&fairness);
+    let labels = label(&graph, &dag, &holds, fairness);
+    let counts = |s: usize| fairness.is_none_or(|fairness| fairness.surely().contains(s));
+    let everywhere = graph.initial().iter().map(|&s| s as usize).all(|s| !counts(s) || labels.of(node).contains(s));
     graph.is_complete().then_some(everywhere)
 }
 
 /// The same in the transition view, by the textbook.
-fn in_transition_view(system: &System, f: &Bound) -> bool {
+fn in_transition_view(system: &System, f: &Bound, again: &[Bound]) -> bool {
     let space = Markings::explored(&system.net, Budget::default(), &mut |_| None);
     let graph = space.graph();
     assert!(graph.is_complete(), "the net is safe");
@@ -107,10 +124,19 @@ fn in_transition_view(system: &System, f: &Bound) -> bool {
     let idle = system.place(PlaceRole::Idle);
     let successors = graph.ids().map(|s| graph.successors(s).iter().map(|&t| t as usize).collect()).collect();
     let scanning = graph.ids().map(|s| !space.is_marked(graph.state(s), idle)).collect();
-    let kripke = Kripke { successors, fair: Some(scanning) };
-    let after_first = not(exists(false, not(end.clone()), and(end, not(counterpart(f, system)))));
+    let mut sets: Vec<Vec<bool>> = vec![scanning];
     let atom = |f: &Bound, s: usize| f.holds_in(&MarkingValuation(&space, graph.state(s as u32))).unwrap();
+    sets.extend(again.iter().map(|goal| graph.ids().map(|s| atom(goal, s as usize)).collect()));
+    let kripke = Kripke::under(Fair::Again(sets), successors);
+    let after_first = not(exists(false, not(end.clone()), and(end, not(counterpart(f, system)))));
     kripke.states(&after_first, &atom)[graph.initial()[0] as usize]
+}
+
+/// What comes again and again, as far as there is anything it could be about.
+fn goals(texts: &[&str], system: &System, view: View) -> Vec<Bound> {
+    let read = |text: &&str| parse_fairness(&Source::new("fairness", *text)).unwrap();
+    let bound = texts.iter().filter_map(|text| bind_fairness(&read(text), system, view).ok());
+    bound.flat_map(|assumed| assumed.constraints).map(|constraint| constraint.goal).collect()
 }
 
 fn formula() -> impl Strategy<Value = Bound> {
@@ -126,10 +152,12 @@ proptest! {
         text in random_program::text(5),
         device in proptest::option::of(random_program::device()),
         formula in formula(),
+        again in proptest::sample::subsequence(vec!["released(i0)", "pressed(i0)", "pressed(i1)", "released(i2)", "plant"], 0..4),
     ) {
         let system = random_program::system(support::program(&text), device.as_ref());
-        if let Some(holds) = in_scan_view(&system, &formula) {
-            prop_assert_eq!(holds, in_transition_view(&system, &formula), "{}", formula.text(&system));
+        if let Some(holds) = in_scan_view(&system, &formula, &goals(&again, &system, View::Scan)) {
+            let again = goals(&again, &system, View::Transition);
+            prop_assert_eq!(holds, in_transition_view(&system, &formula, &again), "{}", formula.text(&system));
         }
     }
 

@@ -105,7 +105,8 @@ pub struct Manual {
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 Formulas are CTL: AG EF AX EX AF EG, A [p U q], E [p U q] and W (weak until) over the program's variables, with
-! & | -> <-> and comparisons of sums. A state is the valuation of all variables at the end of a scan, a step is one scan.
+! & | -> <-> and comparisons of sums; or LTL, after this word: LTL G (p -> F q). A state is the valuation of all
+variables at the end of a scan, a step is one scan.
 
 Examples:
   petril check press.il -r 'AG (Down -> Left & Right)'
@@ -147,6 +148,11 @@ pub struct Check {
     /// requirement file may say it too (`domain level: 0..100;`).
     #[arg(long, value_name = "DOMAIN", requires = "program")]
     pub domain: Vec<String>,
+    /// Which runs count: those in which what is said here comes again and again, like `again and again !start`,
+    /// `if again and again coil then again and again contact`, `released(start, reset)`, `pressed(stop)` or `plant`. May be
+    /// given several times; a requirement file may say it too (`fair: released(start);`).
+    #[arg(long, value_name = "ASSUMPTION")]
+    pub fairness: Vec<String>,
     /// What a state is: the end of a scan, or a marking of the net.
     #[arg(long, value_enum, default_value_t = View::Scan)]
     pub view: View,

@@ -7,7 +7,10 @@ use std::time::Instant;
 
 use petril::exchange::{Checked, json};
 use petril::explore::Progress;
-use petril::logic::{self, Assertion, Assumption, Demand, Requirement, representatives};
+use petril::logic::{
+    self, Assertion, Assumption, Demand, FairnessAssumption, Requirement, always_scanning, bind_fairness,
+    representatives,
+};
 use petril::source::Source;
 use petril::translate::System;
 use petril::verdict::{Options, Report, Verdict, check, check_knowing, fingerprint};
@@ -95,13 +98,19 @@ pub fn checked(
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     let domains = asked.domains(&program, &plant);
     let mut system = System::with_domains(program, plant, domains);
-    let Bound { requirements, assumptions, assertions } = asked.bind(&system, view, console)?;
+    let Bound { requirements, assumptions, assertions, fairness_texts, mut fairness } =
+        asked.bind(&system, view, console)?;
     if view == logic::View::Scan {
-        system = with_representatives(system, &requirements, &assumptions, &assertions);
+        system = with_representatives(system, &requirements, &assumptions, &assertions, &fairness);
+        // The nodes of its net, of which these may speak, are numbered anew.
+        fairness = fairness_texts.iter().filter_map(|text| bind_fairness(text, &system, view).ok()).collect();
+    }
+    if arguments.fair {
+        fairness.push(always_scanning(&system));
     }
     let options = Options {
         view,
-        fair: arguments.fair,
+        fairness,
         budget: arguments.limits.budget(),
         tolerated: arguments.meaning.tolerated(),
         assumptions,
@@ -128,10 +137,13 @@ fn with_representatives(
     asked: &[(Requirement, Demand)],
     assumptions: &[Assumption],
     assertions: &[Assertion],
+    fairness: &[FairnessAssumption],
 ) -> System {
     let asked = asked.iter().filter_map(|(_, demand)| demand.formula());
     let assumed = assumptions.iter().map(|assumption| &assumption.formula);
-    let formulas: Vec<_> = asked.chain(assumed).chain(assertions.iter().map(|assertion| &assertion.formula)).collect();
+    let asserted = assertions.iter().map(|assertion| &assertion.formula);
+    let fairness = fairness.iter().flat_map(FairnessAssumption::formulas);
+    let formulas: Vec<_> = asked.chain(assumed).chain(asserted).chain(fairness).collect();
     let mut found = representatives(&system, &formulas);
     if found.is_empty() {
         return system;

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use petril::diagnostic::{Code, Diagnostic, any_error};
 use petril::flat::FlatProgram;
 use petril::logic::{
-    Assertion, Assumption, Demand, Requirement, RequirementFile, View, bind_assertion, bind_assumption, bind_domain,
-    bind_requirement, parse_domain, parse_requirement, parse_requirements,
+    Assertion, Assumption, Demand, FairnessAssumption, FairnessText, Requirement, RequirementFile, View,
+    bind_assertion, bind_assumption, bind_domain, bind_fairness, bind_requirement, parse_domain, parse_fairness,
+    parse_requirement, parse_requirements,
 };
 use petril::source::Source;
 use petril::syntax;
@@ -33,10 +34,13 @@ pub struct Asked {
 }
 
 /// What is asked of a system, and what is assumed of it.
+#[derive(Default)]
 pub struct Bound {
     pub requirements: Vec<(Requirement, Demand)>,
     pub assumptions: Vec<Assumption>,
     pub assertions: Vec<Assertion>,
+    pub fairness_texts: Vec<FairnessText>,
+    pub fairness: Vec<FairnessAssumption>,
 }
 
 impl Asked {
@@ -48,6 +52,16 @@ impl Asked {
             let (domains, diagnostics) = split(parse_domain(&source));
             asked.texts.push(Text {
                 file: RequirementFile { domains, ..Default::default() },
+                diagnostics,
+                source,
+                is_program: false,
+            });
+        }
+        for (i, text) in arguments.fairness.iter().enumerate() {
+            let source = Source::new(format!("fairness {}", i + 1), text.as_str());
+            let (fairness, diagnostics) = split(parse_fairness(&source));
+            asked.texts.push(Text {
+                file: RequirementFile { fairness, ..Default::default() },
                 diagnostics,
                 source,
                 is_program: false,
@@ -125,7 +139,7 @@ impl Asked {
     /// Everything else, bound.
     pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
-        let mut bound = Bound { requirements: Vec::new(), assumptions: Vec::new(), assertions: Vec::new() };
+        let mut bound = Bound::default();
         for Text { file, mut diagnostics, source, is_program } in self.texts {
             for assumption in &file.assumptions {
                 match bind_assumption(assumption, system, view) {
@@ -146,6 +160,13 @@ impl Asked {
                     Ok(assertion) => bound.assertions.push(assertion),
                     Err(errors) => diagnostics.extend(errors),
                 }
+            }
+            for fairness in file.fairness {
+                match bind_fairness(&fairness, system, view) {
+                    Ok(assumption) => bound.fairness.push(assumption),
+                    Err(errors) => diagnostics.extend(errors),
+                }
+                bound.fairness_texts.push(fairness);
             }
             let others = bound.requirements.len();
             for requirement in file.requirements {

@@ -219,6 +219,10 @@ codes! {
     AssumptionUnfit = "E0507",
     /// An assertion stands where it cannot be checked.
     AssertionUnfit = "E0508",
+    /// A fairness assumption does not fit what it is about.
+    FairnessUnfit = "E0510",
+    /// A formula of LTL has a part that cannot stand in it.
+    LtlUnfit = "E0511",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

@@ -51,6 +51,11 @@ impl Graph {
         Self { len, initial, row_of, starts, targets, stop, ..Self::empty(0) }
     }
 
+    /// The graph of states that are kept elsewhere, some of which share rows: see [`followed`](super::followed).
+    pub(super) fn of_pairs(initial: Vec<u32>, row_of: Vec<u32>, starts: Vec<u64>, targets: Vec<u32>) -> Self {
+        Self { len: row_of.len(), initial, row_of, starts, targets, ..Self::empty(0) }
+    }
+
     /// No states yet, of this many words.
     pub(super) fn empty(words: usize) -> Self {
         Self {

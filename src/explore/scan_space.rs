@@ -18,8 +18,9 @@ use super::scan_lanes::Lanes;
 use super::space::{Admission, Failure, StateSpace, Step, Successors};
 use crate::flat::{Tolerated, Variable};
 use crate::interpret::Machine;
+use crate::net::PlaceId;
 use crate::semantics::{Role, VarId};
-use crate::translate::System;
+use crate::translate::{PlaceRole, System};
 use smallvec::SmallVec;
 
 /// The scan states of a system.
@@ -28,6 +29,8 @@ pub struct ScanSpace<'s> {
     tolerated: Tolerated,
     /// Where each plant component's marking stands in a state.
     components: Vec<Field>,
+    /// The position of each component's first place in the net; the others follow it.
+    places: Vec<usize>,
     /// Where each variable stands in a state; buffers have no bits there.
     variables: Vec<(VarId, Field)>,
     free_inputs: FreeInputs,
@@ -94,6 +97,8 @@ impl<'s> ScanSpace<'s> {
         let width = |markings: usize| usize::BITS - (markings - 1).leading_zeros();
         let markings = system.plant.components.iter().map(|component| component.markings.len());
         let components: Vec<Field> = markings.map(|markings| layout.field(width(markings))).collect();
+        let first = |component| system.places.iter().position(|role| *role == PlaceRole::Plant(component)).unwrap_or(0);
+        let places = (0..components.len()).map(first).collect();
         let bits = |variable: &Variable| if variable.role == Role::Buffer { 0 } else { variable.bits };
         let fields = system.program.variables.iter().map(|variable| layout.field(bits(variable)));
         let variables: Vec<(VarId, Field)> = (0..).map(VarId).zip(fields).collect();
@@ -106,7 +111,19 @@ impl<'s> ScanSpace<'s> {
         let (free_inputs, words) = (FreeInputs::new(system), layout.words());
         let circuit = Circuit::of(&system.program, tolerated, &variables, words);
         let is_refuted = AtomicBool::new(false);
-        Self { system, tolerated, components, variables, free_inputs, words, relevant, circuit, admission, is_refuted }
+        Self {
+            system,
+            tolerated,
+            components,
+            places,
+            variables,
+            free_inputs,
+            words,
+            relevant,
+            circuit,
+            admission,
+            is_refuted,
+        }
     }
 
     /// The system.
@@ -135,6 +152,20 @@ impl<'s> ScanSpace<'s> {
     #[must_use]
     pub fn value(&self, state: &[u64], variable: VarId) -> u64 {
         self.variables[variable.0].1.get(state)
+    }
+
+    /// Whether a place of the plant or of a declared variable's bit is marked at the end of the scan; the others are not.
+    #[must_use]
+    pub fn is_marked(&self, state: &[u64], place: PlaceId) -> bool {
+        match self.system.places[place.index()] {
+            PlaceRole::Bit { variable, bit, value } => (self.value(state, variable) >> bit & 1 == 1) == value,
+            PlaceRole::Plant(component) => {
+                let marking = self.components[component].get(state) as usize;
+                let own = place.index() - self.places[component];
+                self.system.plant.components[component].markings[marking].marked.binary_search(&own).is_ok()
+            }
+            _ => false,
+        }
     }
 
     /// A state of the graph of this space in plain form; `None` is power-on.

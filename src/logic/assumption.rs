@@ -93,6 +93,7 @@ fn visit(formula: &Bound, before: bool, at: &mut dyn FnMut(Atom)) {
             visit(f, before, at);
             visit(g, before, at);
         }
+        Bound::Ltl(path) => path.atoms().into_iter().for_each(|atom| visit(atom, before, at)),
         Bound::Truth(_) | Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => {}
     }
 }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use super::bound::{Bound, Term};
 use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past as Operator, Quantifier, Temporal};
+use super::ltl::Path;
+use super::parse::of_ctl;
 use super::past::Past;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::net::{PlaceId, TransitionId};
@@ -12,10 +14,12 @@ use crate::semantics::Role;
 use crate::source::Span;
 use crate::translate::System;
 
+mod fairness;
 mod nodes;
 mod program;
 mod scans;
 
+pub use fairness::{always_scanning, bind_fairness};
 pub use nodes::Nodes;
 pub use program::View;
 
@@ -34,6 +38,11 @@ pub fn bind(formula: &Formula, system: &System, view: View) -> Result<Bound, Vec
 /// # Errors
 /// Every node that the net does not have, everything that only programs have, and every mixture of truth values and numbers.
 pub fn bind_in_net(formula: &Formula, nodes: &Nodes<'_>) -> Result<Bound, Vec<Diagnostic>> {
+    if matches!(formula.expression, Expression::Ltl(_)) {
+        let message = "this formula is of LTL, which is checked on programs";
+        let help = "write it in CTL, like `AG (a -> AF b)`";
+        return Err(vec![Diagnostic::new(Code::RequirementView, formula.span, message).help(help)]);
+    }
     bind_by(formula, nodes)
 }
 
@@ -177,6 +186,7 @@ impl Binder<'_> {
             | Expression::Held(..)
             | Expression::Within(..)
             | Expression::Response(..) => self.about_scans(formula),
+            Expression::Ltl(path) => self.on_paths(path),
             Expression::Number(_)
             | Expression::Tokens(_)
             | Expression::Sum(..)
@@ -191,6 +201,19 @@ impl Binder<'_> {
                 self.error(Diagnostic::new(Code::RequirementTypes, span, message).help(help))
             }
         }
+    }
+
+    fn on_paths(&mut self, path: &Path<Formula>) -> Bound {
+        Bound::Ltl(Box::new(path.map(&mut |f| self.atom(f))))
+    }
+
+    /// A formula within one about paths, which must be about one state.
+    fn atom(&mut self, formula: &Formula) -> Bound {
+        let atom = self.truth(formula);
+        if atom.is_state_formula() {
+            return atom;
+        }
+        self.error(of_ctl(formula.span))
     }
 
     /// A formula that must be a number; a truth value counts as 0 or 1.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::formula::{Comparison, Quantifier};
+use super::ltl::Path;
 use super::past::Past;
 use crate::net::{PlaceId, TransitionId};
 use crate::semantics::{Type, VarId};
@@ -47,6 +48,8 @@ pub enum Bound {
         /// The second.
         release: Box<Bound>,
     },
+    /// A formula about every path. It is no part of another formula.
+    Ltl(Box<Path<Bound>>),
 }
 
 /// A number that depends on the state.
@@ -112,7 +115,7 @@ impl Bound {
             Self::And(f, g) | Self::Or(f, g) | Self::Implies(f, g) | Self::Iff(f, g) => {
                 f.is_state_formula() && g.is_state_formula()
             }
-            Self::Next(..) | Self::Until { .. } => false,
+            Self::Next(..) | Self::Until { .. } | Self::Ltl(_) => false,
         }
     }
 
@@ -134,6 +137,7 @@ impl Bound {
                 f.for_each_place(visit);
                 g.for_each_place(visit);
             }
+            Self::Ltl(path) => path.atoms().into_iter().for_each(|atom| atom.for_each_place(visit)),
         }
     }
 
@@ -152,7 +156,7 @@ impl Bound {
             Self::Or(f, g) => f.holds_in(state)? || g.holds_in(state)?,
             Self::Implies(f, g) => !f.holds_in(state)? || g.holds_in(state)?,
             Self::Iff(f, g) => f.holds_in(state)? == g.holds_in(state)?,
-            Self::Next(..) | Self::Until { .. } => return None,
+            Self::Next(..) | Self::Until { .. } | Self::Ltl(_) => return None,
         })
     }
 }

@@ -175,7 +175,7 @@ impl Builder<'_> {
                     }
                 }
             }
-            _ => unreachable!("the others are state formulas"),
+            _ => unreachable!("the others are state formulas, or about paths, which are not labelled"),
         }
     }
 }

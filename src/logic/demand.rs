@@ -52,7 +52,8 @@ impl Requirement {
 }
 
 impl Formula {
-    fn speaks_of_time(&self) -> bool {
+    /// Whether it speaks of times.
+    pub(super) fn speaks_of_time(&self) -> bool {
         let timed = |duration: &Duration| matches!(duration.amount, Amount::Milliseconds(_));
         match &self.expression {
             Expression::Held(f, duration) | Expression::Within(f, duration) => timed(duration) || f.speaks_of_time(),
@@ -68,6 +69,7 @@ impl Formula {
             | Expression::Product(f, g)
             | Expression::Until { hold: f, release: g, .. } => f.speaks_of_time() || g.speaks_of_time(),
             Expression::Past(_, of) => of.iter().any(Self::speaks_of_time),
+            Expression::Ltl(path) => path.atoms().into_iter().any(Self::speaks_of_time),
             _ => false,
         }
     }

@@ -1,5 +1,6 @@
 //! Formulas as they are written, before their names mean anything.
 
+use super::ltl::Path;
 use crate::source::Span;
 
 /// A formula or a part of one, and where it stands.
@@ -79,6 +80,8 @@ pub enum Expression {
         /// g
         release: Box<Formula>,
     },
+    /// `LTL …`: a formula about every path. It is no part of another formula.
+    Ltl(Box<Path<Formula>>),
 }
 
 /// The operators that look back.

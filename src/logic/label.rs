@@ -3,7 +3,11 @@
 //! A path ends only in a state without steps; there X g is true under A and false under E, and W needs nothing more. Where a
 //! graph is not complete, a state is in a set only if the node holds whatever the missing steps are. So a formula holds if
 //! the initial states are in its set, is violated if one of them is in the set of its negation, and is undecided otherwise.
+//!
+//! Under fairness, E says that there is a path that counts, so a finite path must lead to a state from which one does; A says
+//! nothing of the others. A formula about one state means the same as ever.
 
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use fixedbitset::FixedBitSet;
@@ -11,9 +15,10 @@ use rayon::prelude::*;
 
 use super::bound::Bound;
 use super::dag::{Dag, Node, NodeId};
+use super::fairness::{Fairness, endings};
 use super::formula::Quantifier;
 use super::sweep::grow;
-use crate::explore::{Graph, components};
+use crate::explore::Graph;
 
 /// The states that satisfy each node of a [`Dag`].
 pub struct Labels {
@@ -28,17 +33,17 @@ impl Labels {
     }
 }
 
-/// Labels every node. `holds` evaluates a formula about one state in a state. With `fair`, only paths that visit this set of
-/// states again and again count; every state must have such a path.
+/// Labels every node. `holds` evaluates a formula about one state in a state. With `fairness`, only paths that meet it count.
 pub fn label(
     graph: &Graph,
     dag: &Dag,
     holds: &(dyn Fn(&Bound, u32) -> bool + Sync),
-    fair: Option<&FixedBitSet>,
+    fairness: Option<&Fairness>,
 ) -> Labels {
     let holding = |formula: &Bound, negated| set_where(graph.len(), |state| holds(formula, state) != negated);
     let mut sets = Vec::with_capacity(dag.nodes().len());
-    Labeller { graph, open: &graph.open(), fair, stopping: &AtomicBool::new(false) }.label(dag, &holding, &mut sets);
+    Labeller { graph, open: &graph.open(), fairness, stopping: &AtomicBool::new(false) }
+        .label(dag, &holding, &mut sets);
     Labels { sets }
 }
 
@@ -51,7 +56,7 @@ pub fn label_from(
     stopping: &AtomicBool,
 ) -> Option<Labels> {
     let mut sets = Vec::with_capacity(dag.nodes().len());
-    Labeller { graph, open: &graph.open(), fair: None, stopping }.label(dag, holding, &mut sets);
+    Labeller { graph, open: &graph.open(), fairness: None, stopping }.label(dag, holding, &mut sets);
     (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
 }
 
@@ -60,34 +65,13 @@ pub fn label_from(
 pub fn leading_to(graph: &Graph, set: &FixedBitSet, stopping: &AtomicBool) -> FixedBitSet {
     let mut all = FixedBitSet::with_capacity(graph.len());
     all.insert_range(..);
-    Labeller { graph, open: &graph.open(), fair: None, stopping }.exists_until(&all, set)
-}
-
-/// The states from which a path stays in `within` and goes round for ever: those on a cycle inside it (through a fair state,
-/// if fairness is asked for), and those where paths end.
-pub(super) fn endings(graph: &Graph, within: &FixedBitSet, fair: Option<&FixedBitSet>) -> FixedBitSet {
-    let components = components(graph, within);
-    let mut fair_components = components.cyclic.clone();
-    if let Some(fair) = fair {
-        let mut visited = FixedBitSet::with_capacity(components.count);
-        within.intersection(fair).for_each(|state| visited.insert(components.of[state] as usize));
-        fair_components.intersect_with(&visited);
-    }
-    let open = graph.open();
-    let mut endings = FixedBitSet::with_capacity(graph.len());
-    for state in within.ones() {
-        let cyclic = fair_components.contains(components.of[state] as usize);
-        if cyclic || (graph.successors(state as u32).is_empty() && !open.contains(state)) {
-            endings.insert(state);
-        }
-    }
-    endings
+    Labeller { graph, open: &graph.open(), fairness: None, stopping }.way(&all, set)
 }
 
 struct Labeller<'a> {
     graph: &'a Graph,
     open: &'a FixedBitSet,
-    fair: Option<&'a FixedBitSet>,
+    fairness: Option<&'a Fairness>,
     /// Once it is set, nobody wants the sets any more.
     stopping: &'a AtomicBool,
 }
@@ -117,18 +101,33 @@ impl Labeller<'_> {
     }
 
     fn exists_next(&self, f: &FixedBitSet) -> FixedBitSet {
+        let f = &self.that_count(f);
         let rows = self.rows_where(|row| row.iter().any(|&next| f.contains(next as usize)));
         let some = |state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize));
         set_where(self.graph.len(), some)
     }
 
     fn all_next(&self, f: &FixedBitSet) -> FixedBitSet {
+        let mut f = Cow::Borrowed(f);
+        if let Some(fairness) = self.fairness {
+            f.to_mut().union_with(&complement(fairness.possibly()));
+        }
         let rows = self.rows_where(|row| row.iter().all(|&next| f.contains(next as usize)));
         let all = |state| self.graph.row_of(state).is_some_and(|row| rows.contains(row as usize));
         set_where(self.graph.len(), |state| !self.open.contains(state as usize) && all(state))
     }
 
+    /// The states of a set from which a path counts.
+    fn that_count<'s>(&self, set: &'s FixedBitSet) -> Cow<'s, FixedBitSet> {
+        self.fairness.map_or(Cow::Borrowed(set), |fairness| Cow::Owned(set & fairness.surely()))
+    }
+
     fn exists_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
+        self.way(f, &self.that_count(g))
+    }
+
+    /// The states from which known steps lead through states with f to a state with g, whether a path goes on there or not.
+    fn way(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
         let some = |set: &FixedBitSet, row: &[u32]| row.iter().any(|&next| set.contains(next as usize));
         grow(self.graph, g.clone(), f, self.stopping, &|set, state| some(set, self.graph.successors(state)))
     }
@@ -143,20 +142,29 @@ impl Labeller<'_> {
     }
 
     fn all_weak_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
-        // A[f W g] = ¬E[¬g U ¬(f ∨ g)], an unknown step being as bad as one to a state without f and g.
+        // A[f W g] = ¬E[¬g U ¬(f ∨ g)]
         let not_g = complement(g);
+        let bad = self.bad(f, g, &not_g);
+        complement(&self.way(&not_g, &bad))
+    }
+
+    /// The states without f and g from which a path may count. An unknown step is as bad as one to such a state.
+    fn bad(&self, f: &FixedBitSet, g: &FixedBitSet, not_g: &FixedBitSet) -> FixedBitSet {
         let mut bad = complement(&(f | g));
-        bad.union_with(&(self.open & &not_g));
-        complement(&self.exists_until(&not_g, &bad))
+        if let Some(fairness) = self.fairness {
+            bad.intersect_with(fairness.possibly());
+        }
+        bad.union_with(&(self.open & not_g));
+        bad
     }
 
     fn all_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
-        // Under fairness, A[f U g] = ¬E[¬g W ¬f ∧ ¬g]; the complement needs all steps. Without them, the set for all paths
-        // serves: what holds on all paths holds on the fair ones.
-        if self.fair.is_some() && self.graph.is_complete() {
+        if self.fairness.is_some() {
+            // A[f U g] = ¬(E[¬g U ¬(f ∨ g)] ∨ E G ¬g)
             let not_g = complement(g);
-            let neither = complement(&(f | g));
-            return complement(&self.exists_weak_until(&not_g, &neither));
+            let mut bad = self.bad(f, g, &not_g);
+            bad.union_with(&endings(self.graph, &not_g, self.fairness.map(Fairness::constraints)));
+            return complement(&self.way(&not_g, &bad));
         }
         let mut within = f.clone();
         within.difference_with(self.open);
@@ -164,11 +172,11 @@ impl Labeller<'_> {
     }
 
     fn exists_weak_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
-        if self.fair.is_some() {
-            // E[f W g] = E[f U g ∨ "f on a fair path that never leaves f"].
-            let mut goal = endings(self.graph, f, self.fair);
-            goal.union_with(g);
-            return self.exists_until(f, &goal);
+        if self.fairness.is_some() {
+            // E[f W g] = E[f U g ∨ "f on a path that counts and never leaves f"].
+            let mut goal = endings(self.graph, f, self.fairness.map(Fairness::constraints));
+            goal.union_with(&self.that_count(g));
+            return self.way(f, &goal);
         }
         // The states that are not in it: without f and g, or with f and no way but to such states.
         let neither = complement(&(f | g));

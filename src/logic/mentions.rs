@@ -36,6 +36,7 @@ impl Mentions {
                 [f, g].into_iter().for_each(|part| self.add(part));
             }
             Bound::Until { hold, release, .. } => [hold, release].into_iter().for_each(|part| self.add(part)),
+            Bound::Ltl(path) => path.atoms().into_iter().for_each(|atom| self.add(atom)),
         }
     }
 

@@ -1,8 +1,11 @@
-//! Requirements: CTL formulas over program variables, or over places and transitions, and their truth on a graph.
+//! Requirements: formulas of CTL and LTL over program variables, or over places and transitions, and their truth on a graph.
 //!
 //! ```text
 //! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
+//!                                     └──ltl──▶ an automaton beside the graph ──search─────────────────▲
 //! ```
+//!
+//! Under fairness only some paths count: see [`Fairness`].
 
 mod along;
 mod assertion;
@@ -13,9 +16,12 @@ mod dag;
 mod demand;
 mod domain;
 mod evidence;
+mod fairness;
 mod formula;
 mod label;
+mod lasso;
 mod literal;
+mod ltl;
 mod mentions;
 mod parse;
 mod past;
@@ -29,19 +35,22 @@ mod valuations;
 pub use along::along;
 pub use assertion::{Assertion, bind_assertion};
 pub use assumption::{Assumed, Assumption, Moment, bind_assumption};
-pub use bind::{Nodes, View, bind, bind_in_net};
+pub use bind::{Nodes, View, always_scanning, bind, bind_fairness, bind_in_net};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};
 pub use demand::{Demand, bind_requirement};
 pub use domain::{DomainText, bind_domain};
-pub use evidence::{Claim, Evidence, Lasso, evidence, near_lasso, shortest};
+pub use evidence::{Claim, Evidence, evidence};
+pub use fairness::{Constraint, Constraints, Fairness, FairnessAssumption, FairnessText, Recurrence};
 pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
 pub use label::{Labels, label, label_from, leading_to};
+pub use lasso::{Lasso, near_lasso, shortest};
 pub use literal::number;
+pub use ltl::{Counterexample, Path, Search, search};
 pub use mentions::Mentions;
 pub use parse::{
     AssertionText, AssumptionText, Body, Origin, PlantText, Requirement, RequirementFile, Tag, parse_domain,
-    parse_formula, parse_requirement, parse_requirements,
+    parse_fairness, parse_formula, parse_requirement, parse_requirements,
 };
 pub use past::{History, Past, remembered};
 pub use representatives::representatives;

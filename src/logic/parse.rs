@@ -10,15 +10,20 @@ use pest_derive::Parser;
 use serde::{Deserialize, Serialize};
 
 use super::domain::DomainText;
+use super::fairness::FairnessText;
 use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Quantifier, Temporal};
 use super::literal;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{Source, Span};
 
+mod fairness;
 mod file;
+mod ltl;
 mod patterns;
 
+pub use fairness::parse_fairness;
 pub use file::{AssertionText, AssumptionText, PlantText, RequirementFile, parse_domain, parse_requirements};
+pub(super) use ltl::of_ctl;
 pub use patterns::Body;
 
 #[derive(Parser)]
@@ -103,21 +108,28 @@ fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diag
     let text = source.text();
     let pairs = RequirementParser::parse(whole, text).map_err(|error| {
         let diagnostic = diagnostic(&error, text, 0);
-        let help = "a formula is like `AG (a & !b -> c)`";
+        let first = text.trim_start().split(|letter: char| !letter.is_alphanumeric()).next();
+        let help = match first {
+            Some("LTL") if whole == Rule::lone_formula => "this must be a formula of CTL, like `AG (a & !b -> AF c)`",
+            Some("LTL" | "G" | "F" | "X") if whole != Rule::lone_formula => {
+                "a formula of LTL is like `LTL G (a & !b -> F c)`"
+            }
+            _ => "a formula is like `AG (a & !b -> c)`",
+        };
         if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
     })?;
     let mut parts = pairs.flatten().filter(|pair| pair.as_rule() == part);
     parts.next().ok_or_else(|| Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"))
 }
 
-/// The formula of a pair of the rule `formula`, unless it is too large.
+/// The formula of a pair of the rule `formula` or `ltl`, unless it is too large.
 fn checked_formula(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     if pair.clone().into_inner().flatten().take(MAX_PARTS + 1).count() > MAX_PARTS {
         let message = format!("this formula has more than {MAX_PARTS} parts");
         let help = "split it into several requirements";
         return Err(Diagnostic::new(Code::RequirementSyntax, span(&pair), message).help(help));
     }
-    formula(pair.into_inner())
+    if pair.as_rule() == Rule::ltl { ltl::whole(pair) } else { formula(pair.into_inner()) }
 }
 
 static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
@@ -154,28 +166,7 @@ fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
             };
             Ok(Formula { expression, span })
         })
-        .map_infix(|left, operator, right| {
-            let (left, right) = (left?, right?);
-            let span = left.span.to(right.span);
-            let (left, right) = (Box::new(left), Box::new(right));
-            let compare = |comparison, left, right| Expression::Compare(comparison, left, right);
-            let expression = match operator.as_rule() {
-                Rule::iff => Expression::Iff(left, right),
-                Rule::implies => Expression::Implies(left, right),
-                Rule::or => Expression::Or(left, right),
-                Rule::and => Expression::And(left, right),
-                Rule::plus => Expression::Sum(left, right),
-                Rule::minus => Expression::Difference(left, right),
-                Rule::times => Expression::Product(left, right),
-                Rule::unequal => compare(Comparison::Unequal, left, right),
-                Rule::less => compare(Comparison::Less, left, right),
-                Rule::at_most => compare(Comparison::AtMost, left, right),
-                Rule::greater => compare(Comparison::Greater, left, right),
-                Rule::at_least => compare(Comparison::AtLeast, left, right),
-                _ => compare(Comparison::Equal, left, right),
-            };
-            Ok(Formula { expression, span })
-        })
+        .map_infix(|left, operator, right| Ok(joined(left?, operator.as_rule(), right?)))
         .map_postfix(|operand, within| {
             let operand = operand?;
             let whole = operand.span.to(span(&within));
@@ -183,6 +174,29 @@ fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
             Ok(Formula { expression: Expression::Within(Box::new(operand), duration), span: whole })
         })
         .parse(pairs)
+}
+
+/// Two formulas with an operator between them.
+fn joined(left: Formula, operator: Rule, right: Formula) -> Formula {
+    let span = left.span.to(right.span);
+    let (left, right) = (Box::new(left), Box::new(right));
+    let compare = |comparison, left, right| Expression::Compare(comparison, left, right);
+    let expression = match operator {
+        Rule::iff => Expression::Iff(left, right),
+        Rule::implies => Expression::Implies(left, right),
+        Rule::or => Expression::Or(left, right),
+        Rule::and => Expression::And(left, right),
+        Rule::plus => Expression::Sum(left, right),
+        Rule::minus => Expression::Difference(left, right),
+        Rule::times => Expression::Product(left, right),
+        Rule::unequal => compare(Comparison::Unequal, left, right),
+        Rule::less => compare(Comparison::Less, left, right),
+        Rule::at_most => compare(Comparison::AtMost, left, right),
+        Rule::greater => compare(Comparison::Greater, left, right),
+        Rule::at_least => compare(Comparison::AtLeast, left, right),
+        _ => compare(Comparison::Equal, left, right),
+    };
+    Formula { expression, span }
 }
 
 /// The first part of a pair that is of a rule.
@@ -204,7 +218,8 @@ fn duration(pair: &Pair<'_, Rule>) -> Result<Duration, Diagnostic> {
     let amount = match part(pair, Rule::scans).and_then(|scans| part(&scans, Rule::count)) {
         Some(count) => Amount::Scans(count.as_str().parse().map_err(|_| unfit("this number is too large".to_owned()))?),
         None => {
-            let number = literal::number(&literal::time(&text.split_whitespace().collect::<String>())).map_err(unfit)?;
+            let number =
+                literal::number(&literal::time(&text.split_whitespace().collect::<String>())).map_err(unfit)?;
             Amount::Milliseconds(u64::try_from(number).map_err(|_| unfit("this is no time from now on".to_owned()))?)
         }
     };
@@ -361,19 +376,33 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::keyword => "`requirement`",
         Rule::domain_word => "`domain`",
         Rule::assume_word => "`assume`",
-        Rule::plant_word => "`plant`",
+        Rule::plant_word | Rule::fair_plant => "`plant`",
         Rule::scan_word => "`scan time`",
         Rule::assert_word => "`assert`",
         Rule::duration | Rule::scans | Rule::spaced | Rule::time | Rule::count => "a time or a number of scans",
         Rule::word | Rule::tag => "a word",
+        Rule::fair_word => "`fair`",
+        Rule::again => "`again and again`",
+        Rule::if_word => "`if`",
+        Rule::then => "`then`",
+        Rule::input_value => "`released` or `pressed`",
+        Rule::fairness | Rule::fair_weak | Rule::fair_strong | Rule::fair_inputs => "an assumption",
         Rule::range | Rule::based => "a number",
         Rule::identifier => "a name",
         Rule::sentence | Rule::quoted => "a text in quotes",
         Rule::colon => "`:`",
         Rule::semicolon => "`;`",
-        Rule::formula | Rule::name | Rule::group | Rule::number => "a formula",
+        Rule::formula
+        | Rule::ltl
+        | Rule::lone_formula
+        | Rule::path
+        | Rule::name
+        | Rule::group
+        | Rule::path_group
+        | Rule::number => "a formula",
         Rule::and | Rule::implies | Rule::equal | Rule::plus => "an operator",
         Rule::until_operator => "`U` or `W`",
+        Rule::path_until => "`U`, `W` or `R`",
         Rule::close_group => "`)`",
         Rule::close_until => "`]`",
         Rule::line => "a line number",

@@ -103,6 +103,7 @@ impl History {
                 self.add_formula(f);
                 self.add_formula(g);
             }
+            Bound::Ltl(path) => path.atoms().into_iter().for_each(|atom| self.add_formula(atom)),
         }
     }
 

@@ -73,6 +73,7 @@ fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
             add(f, input, cuts) && add(g, input, cuts)
         }
         Bound::Until { hold, release, .. } => add(hold, input, cuts) && add(release, input, cuts),
+        Bound::Ltl(path) => path.atoms().into_iter().all(|atom| add(atom, input, cuts)),
     }
 }
 

@@ -1,10 +1,10 @@
 //! What of a formula its own operators decide, whatever the states are.
 //!
-//! Paths end only in states without steps, and every state has a path; so it is under fairness, where every state has a fair
-//! one. Then `EG TRUE` holds, a state where f holds has it in its future, and `AG f` has f on all ways.
+//! Paths end only in states without steps, and every state has a path that counts; under fairness, that is asked for. Then `EG TRUE` holds, a state where f holds has it in its future, and `AG f` has f on all ways.
 
 use super::bound::{Bound, Term};
 use super::formula::{Comparison, Quantifier};
+use super::ltl::Path;
 
 impl Bound {
     /// The formula without the parts that decide themselves: it holds in the same states of every graph.
@@ -53,8 +53,14 @@ impl Bound {
             Self::Until { quantifier, weak, hold, release } => {
                 until(quantifier, weak, hold.simplified(), release.simplified())
             }
+            Self::Ltl(path) => on_paths(&path),
         }
     }
+}
+
+/// The same of the formulas about one state in one about paths.
+fn on_paths(path: &Path<Bound>) -> Bound {
+    Bound::Ltl(Box::new(path.map(&mut |f| f.clone().simplified())))
 }
 
 fn not(f: Bound) -> Bound {

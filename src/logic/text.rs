@@ -3,6 +3,7 @@
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
 use super::formula::{Comparison, Quantifier};
+use super::ltl::Path;
 use super::past::Past;
 use crate::flat::value_text;
 use crate::net::{Net, PlaceId, TransitionId};
@@ -138,6 +139,32 @@ impl Bound {
                     release.set(words, Strength::Iff)
                 ),
             },
+            Self::Ltl(path) => parenthesise(format!("LTL {}", path.set(words)), Strength::Iff < around),
+        }
+    }
+}
+
+impl Path<Bound> {
+    fn set(&self, words: Words<'_>) -> String {
+        let operand = |f: &Self| match f {
+            Self::State(f) => f.set(words, Strength::Prefix),
+            Self::Not(_) | Self::Next(_) | Self::Finally(_) | Self::Globally(_) => f.set(words),
+            _ => format!("({})", f.set(words)),
+        };
+        let two = |f: &Self, sign: &str, g: &Self| format!("{} {sign} {}", operand(f), operand(g));
+        match self {
+            Self::State(f) => f.set(words, Strength::Iff),
+            Self::Not(f) => format!("!{}", operand(f)),
+            Self::And(f, g) => two(f, "&", g),
+            Self::Or(f, g) => two(f, "|", g),
+            Self::Implies(f, g) => two(f, "->", g),
+            Self::Iff(f, g) => two(f, "<->", g),
+            Self::Next(f) => format!("X {}", operand(f)),
+            Self::Finally(f) => format!("F {}", operand(f)),
+            Self::Globally(f) => format!("G {}", operand(f)),
+            Self::Until(f, g) => two(f, "U", g),
+            Self::WeakUntil(f, g) => two(f, "W", g),
+            Self::Release(f, g) => two(f, "R", g),
         }
     }
 }

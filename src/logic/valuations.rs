@@ -6,7 +6,7 @@ use crate::explore::{Markings, Observer, ScanSpace};
 use crate::net::{PlaceId, TransitionId};
 use crate::semantics::VarId;
 
-/// A packed scan state. Formulas bound for the scan view speak of variables only.
+/// A packed scan state. Formulas bound for the scan view speak of variables, and fairness assumptions of the plant's places.
 pub struct ScanValuation<'a>(pub &'a ScanSpace<'a>, pub &'a [u64]);
 
 impl Valuation for ScanValuation<'_> {
@@ -14,12 +14,12 @@ impl Valuation for ScanValuation<'_> {
         self.0.value(self.1, variable)
     }
 
-    fn is_marked(&self, _: PlaceId) -> bool {
-        false
+    fn is_marked(&self, place: PlaceId) -> bool {
+        self.0.is_marked(self.1, place)
     }
 
-    fn tokens(&self, _: PlaceId) -> u64 {
-        0
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.is_marked(place))
     }
 
     fn is_enabled(&self, _: TransitionId) -> bool {
@@ -54,12 +54,12 @@ impl Valuation for RememberingValuation<'_> {
         remembered(word.copied().unwrap_or_default())
     }
 
-    fn is_marked(&self, _: PlaceId) -> bool {
-        false
+    fn is_marked(&self, place: PlaceId) -> bool {
+        self.space.is_marked(self.state, place)
     }
 
-    fn tokens(&self, _: PlaceId) -> u64 {
-        0
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.is_marked(place))
     }
 
     fn is_enabled(&self, _: TransitionId) -> bool {

@@ -68,9 +68,7 @@ pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<Strin
             assumptions.push("a timer's preset time does not grow while the timer runs and is not called".to_owned());
         }
     }
-    if options.fair {
-        assumptions.push("the PLC always scans again".to_owned());
-    }
+    assumptions.extend(options.fairness.iter().map(|assumed| assumed.words.clone()));
     assumptions
 }
 

@@ -1,12 +1,12 @@
 //! A system and requirements to a report: one exploration, then every requirement on its graph.
 
-use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
 use super::coverage::coverage;
 use super::failing::what_is_missing;
-use super::independence::independence;
+use super::fairness::Fair;
+use super::independence::{Independence, independence};
 use super::premises::{Occurrence, occurrence};
 use super::remarks::remarks;
 use super::remembering::RememberingView;
@@ -16,18 +16,18 @@ use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, asserted, e
 use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
 use crate::logic::{
-    Assertion, Assumed, Assumption, Bound, Dag, Demand, History, Node, NodeId, Quantifier, Requirement, View, evidence,
-    label,
+    Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Node, NodeId,
+    Quantifier, Requirement, View, evidence, label,
 };
-use crate::translate::{PlaceRole, System};
+use crate::translate::System;
 
 /// How to check.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// What a state is.
     pub view: View,
-    /// In the transition view, leave out runs in which the plant moves for ever and the PLC never scans again.
-    pub fair: bool,
+    /// Which runs count: those that meet all of these, which must have been bound for the system and the view.
+    pub fairness: Vec<FairnessAssumption>,
     /// How far the exploration may go.
     pub budget: Budget,
     /// The hazards that are no errors. In the scan view nothing is known after the others.
@@ -39,10 +39,11 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// The scan view, no hazard tolerated, and nothing assumed.
+    /// The scan view, no hazard tolerated, nothing assumed, and all runs.
     fn default() -> Self {
         let (budget, tolerated) = (Budget::default(), Tolerated::default());
-        Self { view: View::Scan, fair: false, budget, tolerated, assumptions: Vec::new(), assertions: Vec::new() }
+        let (assumptions, assertions, fairness) = (Vec::new(), Vec::new(), Vec::new());
+        Self { view: View::Scan, fairness, budget, tolerated, assumptions, assertions }
     }
 }
 
@@ -74,7 +75,7 @@ fn check_scans(
     let space = ScanSpace::assuming(system, options.tolerated, admission);
     let graph = explore(&space, options.budget, watch);
     let view = ScanView { space, graph, assumptions: &options.assumptions };
-    let outcomes = outcomes(&view, requirements, options, watch);
+    let (outcomes, left_out) = outcomes(&view, requirements, options, watch);
     let ScanView { space, graph, .. } = &view;
     let asserted = asserted::answers(&view, &options.assertions, &mut || watch(&done(graph)).is_some());
     let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
@@ -87,7 +88,7 @@ fn check_scans(
         checks: ends.chain(hazards).chain(inputs).collect(),
         remarks: remarks(space, graph, never.as_deref().unwrap_or_default()),
         coverage: Some(coverage(system, asked(requirements, options), never)),
-        ..report(system, requirements, options, graph)
+        ..report(system, requirements, options, graph, left_out)
     }
 }
 
@@ -121,36 +122,45 @@ pub(super) fn answers(
     let answer = |((requirement, demand), outcome): (&(Requirement, Demand), Outcome)| {
         let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
         let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
-        Answer { independent, ..Answer::to(requirement, outcome) }
+        // Which runs count may depend on the program.
+        let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
+        Answer { independent: independent.filter(certain), ..Answer::to(requirement, outcome) }
     };
     requirements.iter().zip(outcomes).map(answer).collect()
 }
 
-/// The outcomes of requirements on scans. Those that know the same of the past are judged together, on one graph.
+/// The outcomes of requirements on scans, and what no run goes through that counts, in words. Requirements that know the same of the
+/// past are judged together, on one graph.
 fn outcomes(
     view: &ScanView<'_>,
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
-) -> Vec<Outcome> {
+) -> (Vec<Outcome>, Option<String>) {
     let mut groups: Vec<(History, Vec<usize>)> = Vec::new();
     for (position, (_, demand)) in requirements.iter().enumerate() {
-        let history = History::of(demand.formula());
+        let assumed = options.fairness.iter().flat_map(FairnessAssumption::formulas);
+        let history = History::of(demand.formula().into_iter().chain(assumed));
         match groups.iter_mut().find(|(known, _)| *known == history) {
             Some((_, members)) => members.push(position),
             None => groups.push((history, vec![position])),
         }
     }
     let mut outcomes = vec![Outcome::holds(); requirements.len()];
+    let mut left_out = None;
     for (history, members) in groups {
+        let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
+        let budget = Budget { bytes, ..options.budget };
         let remembering;
-        let judge = if history.is_empty() {
-            Judge { view, graph: &view.graph, fair: None }
+        let view_of: &dyn SystemView = if history.is_empty() {
+            view
         } else {
-            let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
-            remembering = RememberingView::new(view, history, Budget { bytes, ..options.budget }, watch);
-            Judge { view: &remembering, graph: remembering.graph(), fair: None }
+            remembering = RememberingView::new(view, history, budget, watch);
+            &remembering
         };
+        let fair = Fair::on(view_of, &options.fairness);
+        left_out = left_out.or_else(|| fair.as_ref().and_then(Fair::left_out));
+        let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget };
         let judged = members.par_iter().map(|&position| match &requirements[position].1 {
             Demand::Formula(formula) => judge.outcome(formula),
             Demand::EveryLine => every_line::outcome(view),
@@ -158,7 +168,7 @@ fn outcomes(
         let judged: Vec<Outcome> = judged.collect();
         members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
     }
-    outcomes
+    (outcomes, left_out)
 }
 
 fn check_markings(
@@ -170,30 +180,39 @@ fn check_markings(
     let markings = Markings::explored(&system.net, options.budget, watch);
     let view = TransitionView { markings, system };
     let graph = view.graph();
-    let fair = options.fair.then(|| scanning(&view, graph));
-    let judge = Judge { view: &view, graph, fair: fair.as_ref() };
+    let fair = Fair::on(&view, &options.fairness);
+    let left_out = fair.as_ref().and_then(Fair::left_out);
+    let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget };
     let outcomes = requirements.par_iter().map(|(_, demand)| match demand {
         Demand::Formula(formula) => judge.outcome(formula),
         Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
     });
+    // What must be so whenever control comes somewhere, and the checks, are about all runs.
+    let unfair = Judge { fair: None, ..judge };
     let asserted = options.assertions.iter().map(|assertion| {
-        let outcome = judge.outcome(&assertion.as_formula(system));
+        let outcome = unfair.outcome(&assertion.as_formula(system));
         asserted::answer(assertion, outcome)
     });
     let answers = answers(system, requirements, options, outcomes.collect()).into_iter().chain(asserted).collect();
-    let unfair = Judge { fair: None, ..judge };
     let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
     let hazards = hazards::checked(&system.program, options.tolerated)
         .map(|hazard| hazards::answer(hazard, unfair.outcome(&hazards::formula(system, hazard))));
     let checks = ends.chain(hazards).collect();
-    Report { answers, checks, ..report(system, requirements, options, graph) }
+    Report { answers, checks, ..report(system, requirements, options, graph, left_out) }
 }
 
 /// A report without answers.
-fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Options, graph: &Graph) -> Report {
+fn report(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    graph: &Graph,
+    left_out: Option<String>,
+) -> Report {
     // The first scan is a step too in the scan view, not in the transition view.
     let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
-    let timed = requirements.iter().any(|(requirement, _)| requirement.speaks_of_time());
+    let timed = requirements.iter().any(|(requirement, _)| requirement.speaks_of_time())
+        || options.fairness.iter().any(|assumed| assumed.speaks_of_time);
     Report {
         exploration: Exploration {
             view: options.view,
@@ -205,7 +224,7 @@ fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Opt
             bytes: graph.bytes(),
             recalled: false,
         },
-        assumptions: assumptions(system, options, timed),
+        assumptions: assumptions(system, options, timed).into_iter().chain(left_out).collect(),
         answers: Vec::new(),
         checks: Vec::new(),
         remarks: Vec::new(),
@@ -213,33 +232,34 @@ fn report(system: &System, requirements: &[(Requirement, Demand)], options: &Opt
     }
 }
 
-/// The states in which the PLC is not idle. From an idle state `block` is always enabled, so leaving out the paths on which it
-/// stays enabled and never fires means to ask for these states again and again.
-fn scanning(view: &dyn SystemView, graph: &Graph) -> FixedBitSet {
-    let idle = Bound::Marked(view.system().place(PlaceRole::Idle));
-    let mut states = FixedBitSet::with_capacity(graph.len());
-    states.extend(graph.ids().filter(|&id| !view.holds(&idle, graph.state(id))).map(|id| id as usize));
-    states
-}
-
 /// Judges formulas on a graph.
 #[derive(Clone, Copy)]
-struct Judge<'a> {
-    view: &'a dyn SystemView,
-    graph: &'a Graph,
-    fair: Option<&'a FixedBitSet>,
+pub(super) struct Judge<'a> {
+    pub view: &'a dyn SystemView,
+    pub graph: &'a Graph,
+    /// The runs that count, if not all do.
+    pub fair: Option<&'a Fair<'a>>,
+    /// What following a formula along the paths may use.
+    pub budget: Budget,
 }
 
 impl Judge<'_> {
     fn outcome(&self, formula: &Bound) -> Outcome {
-        let Self { view, graph, fair } = *self;
-        let mut dag = Dag::default();
+        if let Bound::Ltl(path) = formula {
+            return self.outcome_on_paths(path);
+        }
+        let Self { view, graph, fair, .. } = *self;
+        let paths = fair.map(|fair| &fair.paths);
+        let (mut dag, assumed) = (Dag::default(), fair.map_or(&[][..], |fair| fair.assumptions));
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
         let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
-        let labels = label(graph, &dag, &holds, fair);
-        let evidence = |node: NodeId| evidence(graph, &dag, &labels, fair, node, graph.initial());
-        let shown = |node: NodeId| Some(witness(view, graph, &dag, &evidence(node)?));
-        let broken = evidence(no).map(|evidence| (witness(view, graph, &dag, &evidence), evidence));
+        let labels = label(graph, &dag, &holds, paths);
+        let counts = |&state: &u32| paths.is_none_or(|paths| paths.surely().contains(state as usize));
+        let beginnings: Vec<u32> = graph.initial().iter().copied().filter(counts).collect();
+        let evidence = |node: NodeId| evidence(graph, &dag, &labels, paths, node, &beginnings);
+        let witness = |evidence: &Evidence| witness(view, &dag, evidence, assumed, &|_, _| ());
+        let shown = |node: NodeId| Some(witness(&evidence(node)?));
+        let broken = evidence(no).map(|evidence| (witness(&evidence), evidence));
         match broken {
             Some((Ok(witness), evidence)) => {
                 let (dag, labels, evidence) = (&dag, &labels, &evidence);
@@ -249,7 +269,11 @@ impl Judge<'_> {
             Some((Err(disagreement), _)) => return disagreed(&disagreement.to_string()),
             None => {}
         }
-        let everywhere = graph.initial().iter().all(|&state| labels.of(yes).contains(state as usize));
+        // What holds only because no run counts is no answer.
+        if let Some(vain) = fair.and_then(|fair| fair.vain.as_ref()) {
+            return Outcome::Unknown(vain.clone());
+        }
+        let everywhere = graph.initial().iter().all(|state| counts(state) && labels.of(yes).contains(*state as usize));
         if !(everywhere && graph.knows_initial()) {
             return Outcome::Unknown(what_is_missing(graph));
         }
@@ -258,7 +282,7 @@ impl Judge<'_> {
             Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
             None => None,
         };
-        let occurrence = whole(graph).map(|graph| occurrence(view, graph, fair, formula)).transpose();
+        let occurrence = whole(graph).map(|graph| occurrence(view, graph, paths, formula)).transpose();
         match occurrence {
             Ok(occurrence) => {
                 let Occurrence { vacuous, example } = occurrence.unwrap_or_default();
@@ -266,6 +290,16 @@ impl Judge<'_> {
             }
             Err(disagreement) => disagreed(&disagreement.to_string()),
         }
+    }
+
+    /// Whether a formula holds in no state of a run that counts.
+    pub(super) fn holds_nowhere(&self, formula: &Bound) -> bool {
+        let mut dag = Dag::default();
+        let node = dag.add(formula, false);
+        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
+        let paths = self.fair.map(|fair| &fair.paths);
+        let labels = label(self.graph, &dag, &holds, paths);
+        paths.map_or_else(|| labels.of(node).is_clear(), |paths| labels.of(node).is_disjoint(paths.surely()))
     }
 }
 

@@ -5,7 +5,7 @@ use fixedbitset::FixedBitSet;
 use super::views::SystemView;
 use super::{Note, Vacuity, Witness};
 use crate::explore::Graph;
-use crate::logic::{Bound, Dag, Premise, Step, label, premises, shortest};
+use crate::logic::{Bound, Dag, Fairness, Premise, Step, label, premises, shortest};
 use crate::witness::Disagreement;
 
 /// What is known of the premises of a requirement that holds.
@@ -21,13 +21,13 @@ pub struct Occurrence {
 pub fn occurrence(
     view: &dyn SystemView,
     graph: &Graph,
-    fair: Option<&FixedBitSet>,
+    paths: Option<&Fairness>,
     formula: &Bound,
 ) -> Result<Occurrence, Disagreement> {
     let premises = premises(formula);
     let mut told: Option<(&Premise<'_>, Vec<FixedBitSet>)> = None;
     for premise in &premises {
-        let sets = sets(view, graph, fair, premise);
+        let sets = sets(view, graph, paths, premise);
         let reached = match is_anywhere(premise.way.first()) {
             true => !sets[1].is_clear(),
             false => graph.initial().iter().any(|&state| sets[0].contains(state as usize)),
@@ -46,7 +46,7 @@ pub fn occurrence(
             told = Some((premise, sets));
         }
     }
-    let example = told.map(|(premise, sets)| Example::of(view, graph, premise, &sets)).transpose()?;
+    let example = told.map(|(premise, sets)| Example::of(view, graph, paths, premise, &sets)).transpose()?;
     Ok(Occurrence { vacuous: None, example })
 }
 
@@ -56,14 +56,16 @@ fn is_anywhere(step: Option<&Step<'_>>) -> bool {
 }
 
 /// The states from which each rest of the way can be gone. A first step to any state is not computed.
-fn sets(view: &dyn SystemView, graph: &Graph, fair: Option<&FixedBitSet>, premise: &Premise<'_>) -> Vec<FixedBitSet> {
+fn sets(view: &dyn SystemView, graph: &Graph, paths: Option<&Fairness>, premise: &Premise<'_>) -> Vec<FixedBitSet> {
     let rests = premise.rests();
     let skipped = usize::from(is_anywhere(premise.way.first()));
     let mut dag = Dag::default();
     let nodes: Vec<_> = rests[skipped..].iter().map(|rest| dag.add(rest, false)).collect();
     let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
-    let labels = label(graph, &dag, &holds, fair);
-    let known = nodes.into_iter().map(|node| labels.of(node).clone());
+    let labels = label(graph, &dag, &holds, paths);
+    // Where no run goes that counts, nothing occurs.
+    let counting = |set: &FixedBitSet| paths.map_or_else(|| set.clone(), |paths| set & paths.surely());
+    let known = nodes.into_iter().map(|node| counting(labels.of(node)));
     std::iter::repeat_n(FixedBitSet::new(), skipped).chain(known).collect()
 }
 
@@ -71,6 +73,7 @@ fn sets(view: &dyn SystemView, graph: &Graph, fair: Option<&FixedBitSet>, premis
 struct Example<'a> {
     view: &'a dyn SystemView,
     graph: &'a Graph,
+    paths: Option<&'a Fairness>,
     states: Vec<u32>,
     /// What holds where.
     claims: Vec<(usize, &'a Bound)>,
@@ -80,10 +83,11 @@ impl<'a> Example<'a> {
     fn of(
         view: &'a dyn SystemView,
         graph: &'a Graph,
+        paths: Option<&'a Fairness>,
         premise: &Premise<'a>,
         sets: &[FixedBitSet],
     ) -> Result<Witness, Disagreement> {
-        let mut example = Self { view, graph, states: Vec::new(), claims: Vec::new() };
+        let mut example = Self { view, graph, paths, states: Vec::new(), claims: Vec::new() };
         example.walk(premise, sets);
         example.claim(premise.formula);
         example.follow(premise.conclusion);
@@ -122,13 +126,14 @@ impl<'a> Example<'a> {
         while let Some(&state) = self.states.last() {
             match conclusion {
                 Bound::Next(_, f) => {
-                    self.states.extend(self.graph.successors(state).first());
+                    let next = self.graph.successors(state).iter().copied().find(|&next| self.counts(next));
+                    self.states.extend(next);
                     conclusion = f;
                 }
                 Bound::Until { weak: false, release, .. } if release.is_state_formula() => {
                     let mut all = FixedBitSet::with_capacity(self.graph.len());
                     all.insert_range(..);
-                    let way = shortest(self.graph, state, &all, false, |id| self.holds(release, id));
+                    let way = shortest(self.graph, state, &all, false, |id| self.holds(release, id) && self.counts(id));
                     let Some(way) = way else { return };
                     self.states.extend(way);
                     return self.claim(release);
@@ -136,6 +141,11 @@ impl<'a> Example<'a> {
                 _ => return,
             }
         }
+    }
+
+    /// Whether a run goes on from here that counts.
+    fn counts(&self, state: u32) -> bool {
+        self.paths.is_none_or(|paths| paths.surely().contains(state as usize))
     }
 
     fn holds(&self, formula: &Bound, state: u32) -> bool {

@@ -1,8 +1,12 @@
 //! What the two views have in common for a check: states, what holds in them, and traces to them.
 
+use std::cell::RefCell;
+
 use super::{Trace, Witness};
 use crate::explore::{Graph, Markings, ScanSpace};
-use crate::logic::{Assumption, Bound, Dag, Evidence, MarkingValuation, Node, ScanValuation};
+use crate::logic::{
+    Assumption, Bound, Constraint, Dag, Evidence, FairnessAssumption, MarkingValuation, Node, ScanValuation,
+};
 use crate::translate::System;
 use crate::verdict::Note;
 use crate::witness::{Disagreement, Holds, Recalled, firing_trace, replay_firings, replay_scans, scan_trace};
@@ -141,9 +145,20 @@ impl SystemView for TransitionView<'_> {
     }
 }
 
-/// The run that evidence describes, replayed, with everything it claims about single states checked on the net.
-pub fn witness(view: &dyn SystemView, graph: &Graph, dag: &Dag, evidence: &Evidence) -> Result<Witness, Disagreement> {
+/// The run that evidence describes, replayed, with everything it claims about single states checked on the net; and that it
+/// meets the fairness assumptions if it goes round for ever. `look` is called at each of its states, too.
+pub fn witness(
+    view: &dyn SystemView,
+    dag: &Dag,
+    evidence: &Evidence,
+    assumed: &[FairnessAssumption],
+    look: &dyn Fn(usize, Holds<'_>),
+) -> Result<Witness, Disagreement> {
+    let graph = view.graph();
     let states: Vec<&[u64]> = evidence.states.iter().map(|&state| graph.state(state)).collect();
+    let constraints: Vec<&Constraint> = assumed.iter().flat_map(|assumed| &assumed.constraints).collect();
+    // Of each constraint, whether its premise and its goal were seen within the loop.
+    let seen = RefCell::new(vec![(false, false); constraints.len()]);
     let trace = view.replayed(&states, evidence.loop_start, &|position, holds| {
         for claim in evidence.claims.iter().filter(|claim| claim.position == position) {
             let Node::State { formula, negated } = dag.node(claim.node) else { continue };
@@ -152,8 +167,19 @@ pub fn witness(view: &dyn SystemView, graph: &Graph, dag: &Dag, evidence: &Evide
                 return Err(Disagreement(format!("the search claims that {sentence}, the replay does not show it")));
             }
         }
+        look(position, holds);
+        if evidence.loop_start.is_some_and(|start| start <= position) {
+            for (constraint, (premise, goal)) in constraints.iter().zip(seen.borrow_mut().iter_mut()) {
+                *premise |= constraint.premise.as_ref().is_none_or(|premise| holds(premise) != Some(false));
+                *goal |= holds(&constraint.goal) == Some(true);
+            }
+        }
         Ok(())
     })?;
+    let seen = seen.into_inner();
+    if let Some((broken, _)) = constraints.iter().zip(seen).find(|(_, (premise, goal))| *premise && !goal) {
+        return Err(Disagreement(format!("the run does not meet the assumption that {}", broken.words)));
+    }
     Ok(Witness { trace, notes: notes(view.system(), dag, evidence) })
 }
 
@@ -169,4 +195,43 @@ fn notes(system: &System, dag: &Dag, evidence: &Evidence) -> Vec<Note> {
         }
     }
     notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explore::{Budget, explore};
+    use crate::flat::flatten;
+    use crate::source::Source;
+    use crate::translate::Plant;
+    use crate::{semantics, syntax};
+
+    /// A search that is wrong about fairness gets no verdict: the replay sees that the loop does not meet a constraint.
+    #[test]
+    fn the_replay_holds_a_loop_to_every_constraint() {
+        let text = "PROGRAM p VAR_INPUT x : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD x\nST q\nEND_PROGRAM";
+        let (unit, _) = syntax::parse(&Source::new("program", text));
+        let Some(program) = semantics::check(&unit, true).0 else { panic!("it is a program") };
+        let system = System::new(flatten(&program), Plant::default());
+        let space = ScanSpace::new(&system);
+        let graph = explore(&space, Budget::default(), &mut |_| None);
+        let view = ScanView { space, graph, assumptions: &[] };
+        let [x, q] =
+            ["x", "q"].map(|name| Bound::Variable(system.program.find(name).unwrap_or_else(|| panic!("{name}"))));
+        let with_x =
+            view.graph.ids().find(|&id| view.holds(&x, view.graph.state(id))).unwrap_or_else(|| panic!("no x"));
+        let evidence = Evidence { states: vec![with_x], loop_start: Some(0), claims: Vec::new() };
+        let shown = |premise: Option<&Bound>, goal: Bound| {
+            let constraint = Constraint { premise: premise.cloned(), goal, words: "…".to_owned() };
+            let assumed =
+                [FairnessAssumption { words: "…".to_owned(), constraints: vec![constraint], speaks_of_time: false }];
+            witness(&view, &Dag::default(), &evidence, &assumed, &|_, _| ()).map(|_| ()).map_err(|error| error.0)
+        };
+        let refuted = || Err("the run does not meet the assumption that …".to_owned());
+        let not_x = || Bound::Not(Box::new(x.clone()));
+        assert_eq!(shown(None, x.clone()), Ok(()));
+        assert_eq!(shown(None, not_x()), refuted());
+        assert_eq!(shown(Some(&q), not_x()), refuted());
+        assert_eq!(shown(Some(&not_x()), not_x()), Ok(()));
+    }
 }

@@ -1,7 +1,7 @@
 //! What a replayed run says of the past, by the definitions: every question goes back through the scans again.
 
 use crate::logic::{Bound, Past, Valuation};
-use crate::net::{PlaceId, TransitionId};
+use crate::net::{Marking, PlaceId, TransitionId};
 use crate::semantics::VarId;
 
 /// The values of the variables at power-on and at the ends of the scans so far, as the net had them.
@@ -9,18 +9,26 @@ use crate::semantics::VarId;
 pub struct Recalled {
     power_on: Vec<u64>,
     ends: Vec<Vec<u64>>,
+    /// The marking of the net at the end of the last scan, if it is known.
+    marking: Option<Marking>,
 }
 
 impl Recalled {
     /// No scan yet.
     #[must_use]
     pub fn new(power_on: Vec<u64>) -> Self {
-        Self { power_on, ends: Vec::new() }
+        Self { power_on, ends: Vec::new(), marking: None }
     }
 
     /// A scan has ended with these values.
     pub fn push(&mut self, memory: Vec<u64>) {
         self.ends.push(memory);
+        self.marking = None;
+    }
+
+    /// The net has this marking at the end of the last scan.
+    pub fn mark(&mut self, marking: Marking) {
+        self.marking = Some(marking);
     }
 
     /// Whether a formula about this scan and those before it holds at the end of the last scan; `None` for a temporal formula.
@@ -87,12 +95,13 @@ impl Valuation for At<'_> {
         }
     }
 
-    fn is_marked(&self, _: PlaceId) -> bool {
-        false
+    fn is_marked(&self, place: PlaceId) -> bool {
+        let is_last = self.scan.is_some_and(|scan| scan + 1 == self.recalled.ends.len());
+        is_last && self.recalled.marking.as_ref().is_some_and(|marking| marking.is_marked(place))
     }
 
-    fn tokens(&self, _: PlaceId) -> u64 {
-        0
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.is_marked(place))
     }
 
     fn is_enabled(&self, _: TransitionId) -> bool {

@@ -165,6 +165,7 @@ pub fn replay_lines(
             Event::AtLine(position) => at_line(position, replay, &recalled),
             Event::AtEnd(position) => {
                 recalled.push(replay.memory());
+                recalled.mark(replay.marking().clone());
                 at_end(position, &recalled)?;
             }
             _ => {}

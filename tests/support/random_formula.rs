@@ -1,6 +1,6 @@
-//! Random CTL formulas over given atoms.
+//! Random formulas of CTL and LTL over given atoms.
 
-use petril::logic::{Bound, Comparison, Quantifier, Term};
+use petril::logic::{Bound, Comparison, Path, Quantifier, Term};
 use proptest::prelude::*;
 
 /// A formula over these atoms; without X if `next` is false.
@@ -26,6 +26,28 @@ pub fn formula(atoms: Vec<Bound>, next: bool) -> impl Strategy<Value = Bound> {
             pair().prop_map(|(f, g)| Bound::Iff(f, g)),
             until,
             step,
+        ]
+    })
+}
+
+/// A formula of LTL over these atoms.
+pub fn path(atoms: Vec<Bound>) -> impl Strategy<Value = Path<Bound>> {
+    let leaf = prop_oneof![6 => proptest::sample::select(atoms), 1 => any::<bool>().prop_map(Bound::Truth)];
+    leaf.prop_map(Path::State).prop_recursive(4, 12, 2, |inner| {
+        let one = || inner.clone().prop_map(Box::new);
+        let two = || (one(), one());
+        prop_oneof![
+            one().prop_map(Path::Not),
+            one().prop_map(Path::Next),
+            one().prop_map(Path::Finally),
+            one().prop_map(Path::Globally),
+            two().prop_map(|(f, g)| Path::And(f, g)),
+            two().prop_map(|(f, g)| Path::Or(f, g)),
+            two().prop_map(|(f, g)| Path::Implies(f, g)),
+            two().prop_map(|(f, g)| Path::Iff(f, g)),
+            two().prop_map(|(f, g)| Path::Until(f, g)),
+            two().prop_map(|(f, g)| Path::WeakUntil(f, g)),
+            two().prop_map(|(f, g)| Path::Release(f, g)),
         ]
     })
 }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use pest::Parser;
 use pest::iterators::Pair;
 
+use super::fairness::{self, fair_line};
 use super::{
-    DomainText, Formula, Origin, Requirement, RequirementParser, Rule, Tag, checked_formula, constant, diagnostic,
-    missing, name_of, one_line, part, patterns, span,
+    DomainText, FairnessText, Formula, Origin, Requirement, RequirementParser, Rule, Tag, checked_formula, constant,
+    diagnostic, missing, name_of, one_line, part, patterns, span,
 };
 use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::literal;
@@ -29,6 +30,8 @@ pub struct RequirementFile {
     pub scan_time: Option<(u64, Span)>,
     /// What is asserted at places of a program.
     pub assertions: Vec<AssertionText>,
+    /// Which runs count.
+    pub fairness: Vec<FairnessText>,
 }
 
 /// Something that is assumed of the inputs of each scan, before its names mean anything.
@@ -140,6 +143,10 @@ pub fn parse_requirements(source: &Source) -> (RequirementFile, Vec<Diagnostic>)
                 }
                 Err(error) => diagnostics.push(error),
             },
+            Rule::fair_line => match fair_line(pair) {
+                Ok(fairness) => file.fairness.push(fairness),
+                Err(error) => diagnostics.push(error),
+            },
             Rule::plant_line => {
                 if let Some(path) = part(&pair, Rule::sentence) {
                     let span = span(&path);
@@ -171,6 +178,7 @@ impl RequirementFile {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         let assumed = self.domains.is_empty() && self.assumptions.is_empty() && self.plants.is_empty();
+        let assumed = assumed && self.fairness.is_empty();
         self.requirements.is_empty() && self.assertions.is_empty() && assumed && self.scan_time.is_none()
     }
 }
@@ -249,6 +257,7 @@ fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
     let items = [
         ("domain", Rule::lone_domain_line, "write it like `domain level: 0..100;`"),
         ("assume", Rule::lone_assume_line, "write it like `assume name \"what it says\": !(S1 & O1);`"),
+        ("fair", Rule::lone_fair_line, fairness::LIKE_LINE),
         ("plant", Rule::lone_plant_line, "write it like `plant \"hands.net\";`"),
         ("scan", Rule::lone_scan_line, "write it like `scan time T#20ms;`"),
         ("assert", Rule::lone_assert_line, "write it like `assert name \"what it says\": a -> b;`"),

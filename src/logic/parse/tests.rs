@@ -1,6 +1,7 @@
 //! Formulas are read with the binding the language gives them.
 
 use super::*;
+use crate::logic::ltl::Path;
 
 /// The formula with all its parentheses.
 fn explicit(formula: &Formula) -> String {
@@ -37,9 +38,60 @@ fn explicit(formula: &Formula) -> String {
         Expression::Difference(f, g) => two(f, "-", g),
         Expression::Product(f, g) => two(f, "*", g),
         Expression::Temporal(q, t, f) => format!("{q:?} {t:?} {}", explicit(f)),
+        Expression::Ltl(path) => format!("LTL {}", explicit_path(path)),
         Expression::Until { quantifier, weak, hold, release } => {
             format!("{quantifier:?}[{} {} {}]", explicit(hold), if *weak { "W" } else { "U" }, explicit(release))
         }
+    }
+}
+
+#[test]
+fn formulas_about_paths_bind_their_operators() {
+    assert_eq!(asked("LTL G (a -> F b)"), "LTL G (a implies F b)");
+    assert_eq!(asked("LTL a & b -> X c | d"), "LTL ((a & b) implies (X c or d))");
+    assert_eq!(asked("LTL a U b & c W d"), "LTL ((a U b) and (c W d))");
+    assert_eq!(asked("LTL a U b R c"), "LTL (a U (b R c))");
+    assert_eq!(asked("LTL a = 1 U b + c <= 1"), "LTL ((a Equal 1) U ((b + c) AtMost 1))");
+    assert_eq!(asked("LTL !a W !G b"), "LTL (!a W not G b)");
+    assert_eq!(asked("LTL G !X a <-> F (b)"), "LTL (G not X a iff F b)");
+    assert_eq!(asked("LTL (a | b) & !(c U (d))"), "LTL ((a | b) and not (c U d))");
+    // The operators are names where no formula follows, and `LTL` is one where none does.
+    assert_eq!(asked("LTL X = 1 & G"), "LTL ((X Equal 1) & G)");
+    assert_eq!(asked("LTL (X) U F"), "LTL (X U F)");
+    assert_eq!(asked("LTL G ((a since b) -> F pre(c))"), "LTL G (Since(a, b) implies F Pre(c))");
+    assert_eq!(asked("LTL & a"), "(LTL & a)");
+    assert_eq!(asked("LTL a U"), "expected a formula, found the end");
+    assert!(asked("LTL G AF a").starts_with("a formula of LTL is about one path"));
+    assert_eq!(asked("LTL F a = 1"), "a formula about a path is compared with or counted as a number");
+}
+
+/// The same of a requirement, which may be of LTL.
+fn asked(text: &str) -> String {
+    match parse_requirement("r", &Source::new("formula", text)) {
+        Ok(Requirement { body: Body::Formula(formula), .. }) => explicit(&formula),
+        Ok(other) => format!("{other:?}"),
+        Err(error) => error.message,
+    }
+}
+
+fn explicit_path(path: &Path<Formula>) -> String {
+    let one = |sign: &str, f: &Path<Formula>| format!("{sign} {}", explicit_path(f));
+    let two = |f: &Path<Formula>, sign: &str, g: &Path<Formula>| {
+        format!("({} {sign} {})", explicit_path(f), explicit_path(g))
+    };
+    match path {
+        Path::State(f) => explicit(f),
+        Path::Not(f) => one("not", f),
+        Path::Next(f) => one("X", f),
+        Path::Finally(f) => one("F", f),
+        Path::Globally(f) => one("G", f),
+        Path::And(f, g) => two(f, "and", g),
+        Path::Or(f, g) => two(f, "or", g),
+        Path::Implies(f, g) => two(f, "implies", g),
+        Path::Iff(f, g) => two(f, "iff", g),
+        Path::Until(f, g) => two(f, "U", g),
+        Path::WeakUntil(f, g) => two(f, "W", g),
+        Path::Release(f, g) => two(f, "R", g),
     }
 }
 

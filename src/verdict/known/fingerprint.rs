@@ -17,7 +17,7 @@ use crate::verdict::Options;
 /// depend on which requirements are checked.
 #[must_use]
 pub fn fingerprint(system: &System, options: &Options) -> String {
-    let Options { view, fair, budget, tolerated, assumptions, assertions } = options;
+    let Options { view, fairness, budget, tolerated, assumptions, assertions } = options;
     let mut program = system.program.clone();
     program.variables.iter_mut().for_each(|variable| variable.span = None);
     // Lines that come from one piece of source belong together, wherever it stands.
@@ -27,7 +27,7 @@ pub fn fingerprint(system: &System, options: &Options) -> String {
         line.span = Span::new(group, group);
     }
     let asserted: Vec<_> = assertions.iter().map(|assertion| (&assertion.formula, &assertion.lines)).collect();
-    of(&(program, &system.plant, &system.domains, (view, fair, budget, tolerated), assumptions, asserted))
+    of(&(program, &system.plant, &system.domains, (view, fairness, budget, tolerated), assumptions, asserted))
 }
 
 /// The fingerprint of a requirement of a system.

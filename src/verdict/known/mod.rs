@@ -56,7 +56,7 @@ pub fn check_knowing(
 ) -> (Report, Option<Known>) {
     let demands: Vec<String> = requirements.iter().map(|(_, demand)| of_demand(demand)).collect();
     // Which runs are left out as unfair is told of all requirements together: then all are known, or none.
-    let together = options.fair;
+    let together = !options.fairness.is_empty();
     let known = known.filter(|known| known.is_about(system, options) && !(together && known.asked != demands));
     let recall = |((_, demand), fingerprint): (&(Requirement, Demand), &String)| {
         known.and_then(|known| known.outcome(system, demand, fingerprint))

@@ -35,7 +35,7 @@ fn goal(formula: &Bound, truth: bool, left: &mut usize) -> Option<Goal> {
         Bound::Iff(f, g) => {
             Goal::Any(vec![Goal::All(parts(f, g, true, truth)?), Goal::All(parts(f, g, false, !truth)?)])
         }
-        Bound::Variable(_) | Bound::Bit(..) | Bound::Next(..) | Bound::Until { .. } => return None,
+        Bound::Variable(_) | Bound::Bit(..) | Bound::Next(..) | Bound::Until { .. } | Bound::Ltl(_) => return None,
     })
 }
 
