@@ -21,7 +21,7 @@ const STEPS: [&str; 6] = [
     "AG EF m0",
     "AF at End",
     "EX (m1 <-> m2)",
-    "AG (at idle -> A [!at End U at line 1])",
+    "AG (at idle -> EF at End)",
 ];
 
 fn requirement(name: &str, text: &str, system: &System, view: View) -> (Requirement, Demand) {
