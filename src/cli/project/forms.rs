@@ -6,12 +6,12 @@ use std::path::{Component, Path, PathBuf};
 use petril::exchange::{Checked, Stamp, junit, sarif};
 use serde_json::Value;
 
-use super::run::Result;
+use super::run::Judged;
 use crate::cli::forms::{self, Forms, stamp};
 use crate::cli::{Failure, output, reason};
 
 /// Writes what was asked for about all programs that could be checked.
-pub fn write(forms: &Forms, results: &[Result]) -> std::result::Result<(), Failure> {
+pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
     forms::refuse_twice(forms)?;
     let done = || results.iter().filter_map(|result| Some((result, result.done.as_ref().ok()?)));
     let told: Vec<(&str, Checked<'_>, Stamp)> =
@@ -51,7 +51,7 @@ fn joined(mut all: Value, mut more: Value) -> Value {
 
 /// The file of a program in a folder, which is made if there is none. A name like `lines/press` is a path in it, and never one out
 /// of it.
-fn file(folder: &Path, name: &str, ending: &str) -> std::result::Result<PathBuf, Failure> {
+fn file(folder: &Path, name: &str, ending: &str) -> Result<PathBuf, Failure> {
     let inside = Path::new(name).components().filter(|part| matches!(part, Component::Normal(_)));
     let mut path = folder.join(inside.collect::<PathBuf>()).into_os_string();
     path.push(ending);

@@ -25,11 +25,11 @@ use crate::cli::report::Text;
 use crate::cli::{Failure, Outcome};
 
 /// A program of the project that was checked, or could not be.
-pub struct Result {
+pub struct Judged {
     /// What it is called.
     pub name: String,
     pub arguments: Check,
-    pub done: std::result::Result<Done, Failure>,
+    pub done: Result<Done, Failure>,
     /// What was said of its files, for those who want JSON.
     pub diagnostics: Vec<Value>,
 }
@@ -44,7 +44,7 @@ pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
     let path = command.project.clone().or_else(find).ok_or_else(nothing)?;
     let entries = chosen(read(&path, console)?, &command.only)?;
     let checks = entries.into_iter().map(|entry| Ok((arguments(&entry, given)?, entry)));
-    let checks: Vec<(Check, Entry)> = checks.collect::<std::result::Result<_, Failure>>()?;
+    let checks: Vec<(Check, Entry)> = checks.collect::<Result<_, Failure>>()?;
     use_threads(&command.limits)?;
     listen();
     let cache = if command.no_cache { None } else { Cache::open(Some(&path)) };
@@ -59,7 +59,7 @@ pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
 }
 
 /// The programs that are asked for: all, or those whose names match.
-fn chosen(entries: Vec<Entry>, only: &[String]) -> std::result::Result<Vec<Entry>, Failure> {
+fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
     if only.is_empty() {
         return Ok(entries);
     }
@@ -76,12 +76,12 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> std::result::Result<Vec<Entry
             nearest.map_or_else(|| format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
         Err(Failure::Message(format!("--only: no program of the project is called `{text}`\n  {help}")))
     };
-    let patterns: Vec<glob::Pattern> = only.iter().map(pattern).collect::<std::result::Result<_, Failure>>()?;
+    let patterns: Vec<glob::Pattern> = only.iter().map(pattern).collect::<Result<_, Failure>>()?;
     Ok(entries.into_iter().filter(|entry| patterns.iter().any(|pattern| pattern.matches(&entry.name))).collect())
 }
 
 /// Checks all programs, several at once. What they say is printed in their order.
-fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) -> Vec<Result> {
+fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) -> Vec<Judged> {
     let bar = ProgressBar::with_draw_target(Some(checks.len() as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} programs, {elapsed}: {wide_msg}") {
         bar.set_style(style);
@@ -109,7 +109,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     });
     drop(found);
     bar.finish_and_clear();
-    let mut results: Vec<(usize, std::result::Result<Done, Failure>, Told)> = results.iter().collect();
+    let mut results: Vec<(usize, Result<Done, Failure>, Told)> = results.iter().collect();
     results.sort_by_key(|&(position, ..)| position);
     let told = |((arguments, entry), (_, done, mut told)): ((Check, Entry), (usize, _, Told))| {
         let diagnostics = told.take_diagnostics();
@@ -117,7 +117,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
         if let Err(Failure::Message(message)) = &done {
             console.error(&format!("{}: {message}", entry.name));
         }
-        Result { name: entry.name, arguments, done, diagnostics }
+        Judged { name: entry.name, arguments, done, diagnostics }
     };
     checks.into_iter().zip(results).map(told).collect()
 }
@@ -129,10 +129,10 @@ fn take<'a, T>(next: &AtomicUsize, of: &'a [T]) -> Option<(usize, &'a T)> {
 }
 
 /// The summary, and what is not as it should be.
-fn text(path: &Path, results: &[Result], console: &Console) -> String {
+fn text(path: &Path, results: &[Judged], console: &Console) -> String {
     let lines: Vec<Line<'_>> = results.iter().map(|result| Line::of(&result.name, result.done.as_ref().ok())).collect();
     let mut out = summary(path, &lines, console);
-    for Result { name, arguments, done, .. } in results {
+    for Judged { name, arguments, done, .. } in results {
         let Ok(Done { system, source, report, .. }) = done else { continue };
         if report.verdict() != Verdict::Holds {
             let text = Text { system, source, arguments, console };
@@ -142,8 +142,8 @@ fn text(path: &Path, results: &[Result], console: &Console) -> String {
     out
 }
 
-fn document(path: &Path, results: &[Result]) -> Value {
-    let program = |result: &Result| {
+fn document(path: &Path, results: &[Judged]) -> Value {
+    let program = |result: &Judged| {
         let mut report = match &result.done {
             Ok(done) => json::report(&done.told(), result.arguments.by_line || result.arguments.details),
             Err(Failure::Message(message)) => json!({ "verdict": "error", "error": message }),
@@ -163,7 +163,7 @@ fn document(path: &Path, results: &[Result]) -> Value {
 }
 
 /// The exit code of the worst: input that cannot be used, then what is violated, then what is unknown.
-fn worst(results: &[Result]) -> ExitCode {
+fn worst(results: &[Judged]) -> ExitCode {
     if results.iter().any(|result| result.done.is_err()) {
         return ExitCode::from(2);
     }
