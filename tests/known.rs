@@ -3,7 +3,9 @@
 
 mod support;
 
-use petril::logic::{Bound, Demand, Requirement, View, bind_requirement, parse_requirement};
+use petril::logic::{
+    Bound, Demand, Requirement, View, bind_fairness, bind_requirement, parse_fairness, parse_requirement,
+};
 use petril::semantics::{Role, VarId};
 use petril::source::Source;
 use petril::translate::System;
@@ -11,8 +13,18 @@ use petril::verdict::{Known, Options, Report, check, check_knowing, fingerprint}
 use proptest::prelude::*;
 use support::{random_formula, random_program};
 
-/// Requirements that look back, for the scan view.
-const BACK: [&str; 4] = ["AG (rising(q0) -> i0)", "AG (m0 -> once(i1))", "AG !held(i0, 2 scans)", "EF (q0 & pre(q1))"];
+/// Requirements that look back, or are about single runs, for the scan view.
+const BACK: [&str; 6] = [
+    "AG (rising(q0) -> i0)",
+    "AG (m0 -> once(i1))",
+    "AG !held(i0, 2 scans)",
+    "EF (q0 & pre(q1))",
+    "LTL G (i0 -> F q0)",
+    "LTL G F m0 -> G F (q0 | q1)",
+];
+
+/// Which runs count.
+const FAIR: &str = "if again and again i2 then again and again !i2";
 
 /// Requirements on markings.
 const STEPS: [&str; 6] = [
@@ -66,10 +78,13 @@ proptest! {
         formulas in proptest::collection::vec(random_formula::formula(atoms(), true), 4),
         first in 0..4_usize,
         transitions in any::<bool>(),
+        fair in any::<bool>(),
     ) {
         let system = random_program::system(support::program(&text), device.as_ref());
         let view = if transitions { View::Transition } else { View::Scan };
-        let options = Options { view, ..Options::default() };
+        let assumed = parse_fairness(&Source::new("fairness", FAIR)).unwrap();
+        let fairness = if fair { vec![bind_fairness(&assumed, &system, view).unwrap()] } else { vec![] };
+        let options = Options { view, fairness, ..Options::default() };
         let all = requirements(&system, &formulas, view);
         let plain = told(check(&system, &all, &options, &mut |_| None));
 

@@ -151,7 +151,7 @@ pub struct Check {
     /// Which runs count: those in which what is said here comes again and again, like `again and again !start`,
     /// `if again and again coil then again and again contact`, `released(start, reset)`, `pressed(stop)` or `plant`. May be
     /// given several times; a requirement file may say it too (`fair: released(start);`).
-    #[arg(long, value_name = "ASSUMPTION")]
+    #[arg(long, value_name = "ASSUMPTION", requires = "program")]
     pub fairness: Vec<String>,
     /// What a state is: the end of a scan, or a marking of the net.
     #[arg(long, value_enum, default_value_t = View::Scan)]

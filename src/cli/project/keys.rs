@@ -38,11 +38,12 @@ const fn key(name: &'static str, option: &'static str, kind: Kind) -> Key {
 }
 
 /// The keys, in the order in which the guide has them.
-pub const KEYS: [Key; 14] = [
+pub const KEYS: [Key; 15] = [
     key("plants", "plant", Kind::Paths),
     key("requirements", "require", Kind::Paths),
     key("formulas", "requirement", Kind::Texts),
     key("domains", "domain", Kind::Texts),
+    key("fairness", "fairness", Kind::Texts),
     key("view", "view", Kind::Word),
     key("fair", "fair", Kind::Switch),
     key("pou", "pou", Kind::Word),

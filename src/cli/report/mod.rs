@@ -106,6 +106,7 @@ impl Text<'_> {
             (Stop::Complete, false) => "every state was explored, but none behind a scan that goes wrong".to_owned(),
             (stop, _) => stop.to_string(),
         };
+        let end = if exploration.recalled { format!("{end}, in an earlier run") } else { end };
         let assumptions = report.assumptions.iter().map(|assumption| self.line("assumed", assumption));
         self.line(view, &format!("{figures}; {end}")) + &assumptions.collect::<String>()
     }

@@ -91,26 +91,38 @@ fn exists(system: &System, why: &Why, witness: &Witness) -> bool {
 /// Whether a run replays and shows that the formula does not hold, as far as one run can show it: what is claimed of all runs from
 /// one of its states is not looked at.
 fn breaks(system: &System, formula: Option<&Bound>, witness: &Witness) -> bool {
-    let Some(formula) = formula else { return replay(system, witness, &mut |_, _| ()) };
     let mut dag = Dag::default();
-    let broken = dag.add(formula, true);
-    let states: Vec<&Bound> = dag.nodes().iter().filter_map(Node::state).collect();
+    let broken = formula.filter(|formula| !matches!(formula, Bound::Ltl(_))).map(|formula| dag.add(formula, true));
+    let atoms: Vec<&Bound> = match formula {
+        Some(Bound::Ltl(path)) => path.atoms(),
+        _ => dag.nodes().iter().filter_map(Node::state).collect(),
+    };
     let mut held: Vec<Vec<Option<bool>>> = Vec::new();
-    if !replay(system, witness, &mut |_, holds| held.push(states.iter().map(|formula| holds(formula)).collect())) {
+    if !replay(system, witness, &mut |_, holds| held.push(atoms.iter().map(|atom| holds(atom)).collect())) {
         return false;
     }
+    let Some(formula) = formula else { return true };
     let loop_start = match &witness.trace {
         Trace::Scans(trace) => trace.loop_start,
         Trace::Firings(trace) => trace.loop_start,
     };
     // The last state of a loop is the one it began with.
     let length = held.len() - usize::from(loop_start.is_some());
-    let holds = |formula: &Bound, at: usize| {
-        let position = states.iter().position(|&state| std::ptr::eq(state, formula));
-        position.and_then(|position| held[at][position]).unwrap_or(false)
-    };
     if held.iter().flatten().any(Option::is_none) || length == 0 {
         return false;
     }
-    along(&dag, (length, loop_start), &holds, &|_, _| true)[broken.index()][0]
+    let at = |atom: usize, position: usize| held[position][atom] == Some(true);
+    match (formula, broken) {
+        (Bound::Ltl(path), _) => {
+            let mut next = 0..;
+            let numbered = path.map(&mut |_| next.next().unwrap_or_default());
+            !numbered.holds_on(length, loop_start, &|&atom: &usize, position| at(atom, position))
+        }
+        (_, Some(broken)) => {
+            let number = |formula: &Bound| atoms.iter().position(|&atom| std::ptr::eq(atom, formula));
+            let holds = |formula: &Bound, position: usize| number(formula).is_some_and(|atom| at(atom, position));
+            along(&dag, (length, loop_start), &holds, &|_, _| true)[broken.index()][0]
+        }
+        (_, None) => false,
+    }
 }
