@@ -498,6 +498,13 @@ fn files_are_watched() {
     fs::copy(folder.path().join("again/gate.net"), folder.path().join("gate.net")).unwrap();
     until(&out, "6 requirements: 6 hold");
     until(&messages, "watching");
+    // A file that is new, and matches a pattern.
+    edit(&folder.path().join("petril.toml"), "program = \"gate.il\"", "programs = \"*.il\"");
+    until(&out, "1 program: 1 hold");
+    until(&messages, "watching");
+    fs::copy(folder.path().join("again/gate.il"), folder.path().join("second.il")).unwrap();
+    until(&out, "2 programs: 1 hold, 1 violated");
+    until(&messages, "watching");
     let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(killed.success());
     let started = Instant::now();

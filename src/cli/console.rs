@@ -10,6 +10,7 @@ use petril::source::Source;
 use serde_json::Value;
 
 use super::args::When;
+use super::seen::Seen;
 use super::{Failure, Outcome, SUCCESS, reason};
 
 /// How many diagnostics of one file are printed. The first ones are the ones to mend.
@@ -29,15 +30,15 @@ pub struct Console {
     /// Messages, if they are not printed at once.
     held: Option<RefCell<String>>,
     colour: When,
-    /// The files that were read, for whoever waits for them to change, each with what was in it.
-    files: RefCell<Vec<(PathBuf, Option<blake3::Hash>)>>,
+    /// What was seen of the file system.
+    seen: RefCell<Seen>,
 }
 
 /// What one of several consoles was told.
 pub struct Told {
     messages: String,
     diagnostics: Vec<Value>,
-    files: Vec<(PathBuf, Option<blake3::Hash>)>,
+    seen: Seen,
 }
 
 impl Told {
@@ -64,7 +65,7 @@ impl Console {
             printed: RefCell::default(),
             held: None,
             colour,
-            files: RefCell::default(),
+            seen: RefCell::default(),
         }
     }
 
@@ -81,27 +82,29 @@ impl Console {
     /// What was told to a console that keeps it.
     pub fn told(self) -> Told {
         let messages = self.held.map(RefCell::into_inner).unwrap_or_default();
-        Told { messages, diagnostics: self.printed.into_inner(), files: self.files.into_inner() }
+        Told { messages, diagnostics: self.printed.into_inner(), seen: self.seen.into_inner() }
     }
 
     /// Prints what another one was told.
     pub fn tell(&self, told: Told) {
         self.message(&told.messages);
         self.printed.borrow_mut().extend(told.diagnostics);
-        self.files.borrow_mut().extend(told.files);
+        self.seen.borrow_mut().extend(told.seen);
     }
 
     /// A file was read, or could not be.
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
-        self.files.borrow_mut().push((path.to_owned(), bytes.map(blake3::hash)));
+        self.seen.borrow_mut().file(path, bytes);
     }
 
-    /// The files that were read since this was last asked.
-    pub fn take_files(&self) -> Vec<(PathBuf, Option<blake3::Hash>)> {
-        let mut files = self.files.take();
-        files.sort_by(|(a, _), (b, _)| a.cmp(b));
-        files.dedup_by(|(a, _), (b, _)| a == b);
-        files
+    /// A pattern matched these files.
+    pub fn has_matched(&self, pattern: &str, files: &[PathBuf]) {
+        self.seen.borrow_mut().pattern(pattern, files);
+    }
+
+    /// What was seen of the file system since this was last asked.
+    pub fn take_seen(&self) -> Seen {
+        self.seen.take()
     }
 
     /// Prints the diagnostics of a file, most of them, each with an empty line behind it.

@@ -30,6 +30,7 @@ mod progress;
 mod project;
 mod report;
 mod requirements;
+mod seen;
 mod simulate;
 mod translate;
 mod watch;

@@ -1,8 +1,6 @@
 //! `--watch`: checks again whenever a file changes that was read.
 
-use std::collections::BTreeSet;
 use std::io::{self, IsTerminal};
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
@@ -10,6 +8,7 @@ use std::time::Duration;
 use notify::{RecursiveMode, Watcher as _};
 
 use super::console::Console;
+use super::seen::Seen;
 use super::{Failure, Outcome, progress, report::counted};
 
 /// How long nothing must happen until files are looked at: editors write in several steps.
@@ -31,33 +30,34 @@ pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
         if let Err(Failure::Message(message)) = check() {
             console.error(&message);
         }
-        let files = console.take_files();
+        let seen = console.take_seen();
         if progress::is_interrupted() {
             return Ok(ExitCode::from(INTERRUPTED));
         }
-        console.message(&format!("watching {}; Ctrl-C ends\n", counted(files.len(), "file")));
+        console.message(&format!("watching {}; Ctrl-C ends\n", counted(seen.count(), "file")));
         let (heard, events) = mpsc::channel();
         let watcher = notify::recommended_watcher(move |_| {
             let _ = heard.send(());
         });
         // Without a watcher, files are looked at again and again.
         let _watcher = watcher.ok().map(|mut watcher| {
-            for folder in folders(files.iter().map(|(path, _)| path.as_path())) {
+            for folder in seen.folders() {
                 let _ = watcher.watch(&folder, RecursiveMode::NonRecursive);
             }
             watcher
         });
-        if !is_changed(&files, &events) {
+        if !is_changed(&seen, &events) {
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
 }
 
-/// Waits until a file is not what was read; whether one is, and not the end.
-fn is_changed(files: &[(PathBuf, Option<blake3::Hash>)], events: &Receiver<()>) -> bool {
+/// Waits until something is not what it was; whether it is so, and not the end.
+fn is_changed(seen: &Seen, events: &Receiver<()>) -> bool {
     loop {
         match events.recv_timeout(TICK) {
-            Ok(()) => while events.recv_timeout(QUIET).is_ok() {},
+            // Where something happens all the time, files are looked at all the same.
+            Ok(()) => drop((0..20).take_while(|_| events.recv_timeout(QUIET).is_ok()).count()),
             // Nobody listens.
             Err(RecvTimeoutError::Disconnected) => std::thread::sleep(TICK),
             Err(RecvTimeoutError::Timeout) => {}
@@ -65,14 +65,8 @@ fn is_changed(files: &[(PathBuf, Option<blake3::Hash>)], events: &Receiver<()>) 
         if progress::is_interrupted() {
             return false;
         }
-        if files.iter().any(|(path, then)| std::fs::read(path).ok().map(|bytes| blake3::hash(&bytes)) != *then) {
+        if seen.is_other_now() {
             return true;
         }
     }
-}
-
-/// The folders of files: an editor may put a new file in the place of an old one.
-fn folders<'p>(files: impl Iterator<Item = &'p Path>) -> BTreeSet<PathBuf> {
-    let folder = |file: &Path| file.parent().filter(|folder| !folder.as_os_str().is_empty()).map(Path::to_owned);
-    files.map(|file| folder(file).unwrap_or_else(|| PathBuf::from("."))).collect()
 }

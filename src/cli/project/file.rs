@@ -40,7 +40,7 @@ pub struct Entry {
 pub fn read(path: &Path, console: &Console) -> Result<Vec<Entry>, Failure> {
     let source = input::source(path, input::MAX_TEXT, console)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let mut reader = Reader { folder, entries: Vec::new(), diagnostics: Vec::new() };
+    let mut reader = Reader { console, folder, entries: Vec::new(), diagnostics: Vec::new() };
     reader.document(&source);
     let Reader { entries, mut diagnostics, .. } = reader;
     diagnostics.sort_by_key(Diagnostic::span);
@@ -48,13 +48,14 @@ pub fn read(path: &Path, console: &Console) -> Result<Vec<Entry>, Failure> {
     if diagnostics.is_empty() { Ok(entries) } else { Err(Failure::Reported) }
 }
 
-struct Reader {
+struct Reader<'c> {
+    console: &'c Console,
     folder: PathBuf,
     entries: Vec<Entry>,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn document(&mut self, source: &Source) {
         let (document, errors) = DeTable::parse_recoverable(source.text());
         if !errors.is_empty() {
@@ -124,7 +125,7 @@ impl Reader {
             return;
         }
         let is_named = name.is_some();
-        match matches(&self.folder, place, name, programs) {
+        match matches(&self.folder, place, name, programs, self.console) {
             Ok(found) => {
                 let kept = defaults.iter().filter(|default| !settings.iter().any(|setting| setting.replaces(default)));
                 let settings: Vec<Setting> = kept.chain(&settings).cloned().collect();

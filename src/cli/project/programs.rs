@@ -6,6 +6,9 @@ use std::path::Path;
 use petril::diagnostic::{Code, Diagnostic};
 use petril::source::Span;
 
+use crate::cli::console::Console;
+use crate::cli::seen::matching;
+
 /// What an entry says of its programs, and where.
 #[derive(Default)]
 pub struct Programs {
@@ -21,6 +24,7 @@ pub fn matches(
     place: Span,
     name: Option<String>,
     programs: Programs,
+    console: &Console,
 ) -> Result<Vec<(String, String)>, Diagnostic> {
     let wrong =
         |span, message: String, help: &str| Err(Diagnostic::new(Code::ProjectProgram, span, message).help(help));
@@ -35,7 +39,7 @@ pub fn matches(
             }
             let mut found = Vec::new();
             for pattern in patterns {
-                match files(folder, &pattern) {
+                match files(folder, &pattern, console) {
                     Ok(files) if files.is_empty() => {
                         let help = "paths begin at the folder of the project file";
                         return wrong(span, format!("`{pattern}` matches no file"), help);
@@ -67,10 +71,11 @@ fn without_ending(path: &str) -> String {
     Path::new(path).with_extension("").display().to_string()
 }
 
-/// The files a pattern matches, in the order of their names.
-fn files(folder: &Path, pattern: &str) -> Result<Vec<String>, String> {
-    let whole = Path::new(&glob::Pattern::escape(&folder.display().to_string())).join(pattern);
-    let paths = glob::glob(&whole.display().to_string()).map_err(|error| error.msg.to_owned())?;
-    let files = paths.filter_map(Result::ok).filter(|path| path.is_file());
-    Ok(files.map(|path| path.strip_prefix(folder).unwrap_or(&path).display().to_string()).collect())
+/// The files a pattern matches, from the folder, in the order of their names.
+fn files(folder: &Path, pattern: &str, console: &Console) -> Result<Vec<String>, String> {
+    let whole = Path::new(&glob::Pattern::escape(&folder.display().to_string())).join(pattern).display().to_string();
+    glob::Pattern::new(&whole).map_err(|error| error.msg.to_owned())?;
+    let files = matching(&whole);
+    console.has_matched(&whole, &files);
+    Ok(files.iter().map(|path| path.strip_prefix(folder).unwrap_or(path).display().to_string()).collect())
 }

@@ -81,14 +81,14 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
     out
 }
 
-/// `3 programs: 1 holds, …`
+/// `3 programs: 2 hold, 1 violated`
 fn programs(lines: &[Line<'_>]) -> String {
     let with =
         |verdict| lines.iter().filter_map(|line| line.done).filter(|done| done.report.verdict() == verdict).count();
     let wrong = lines.iter().filter(|line| line.done.is_none()).count();
-    let mut parts = vec![format!("{} as they should be", with(Verdict::Holds))];
-    parts.extend((with(Verdict::Violated) > 0).then(|| format!("{} with something violated", with(Verdict::Violated))));
-    parts.extend((with(Verdict::Unknown) > 0).then(|| format!("{} undecided", with(Verdict::Unknown))));
+    let mut parts = vec![format!("{} hold", with(Verdict::Holds))];
+    parts.extend((with(Verdict::Violated) > 0).then(|| format!("{} violated", with(Verdict::Violated))));
+    parts.extend((with(Verdict::Unknown) > 0).then(|| format!("{} unknown", with(Verdict::Unknown))));
     parts.extend((wrong > 0).then(|| format!("{wrong} with errors")));
     format!("{}: {}\n", counted(lines.len(), "program"), parts.join(", "))
 }
