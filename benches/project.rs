@@ -91,9 +91,13 @@ fn starter(size: usize) -> (String, [String; 10]) {
         neighbours.for_each(|j| writeln!(code, "    ANDN Motor{j}").unwrap());
         writeln!(code, "    ST Motor{i}").unwrap();
     }
+    if size.is_multiple_of(2) {
+        code += "    LD Motor1\n    OR Motor2\n    ST Lamp\n";
+    }
     let motors = names("Motor", 1..=n, ", ");
+    let lamp = if size.is_multiple_of(2) { ", Lamp" } else { "" };
     let program = format!(
-        "PROGRAM starter\nVAR_INPUT {}, Stop : BOOL; END_VAR\nVAR_OUTPUT {motors} : BOOL; END_VAR\n{code}END_PROGRAM\n",
+        "PROGRAM starter\nVAR_INPUT {}, Stop : BOOL; END_VAR\nVAR_OUTPUT {motors}{lamp} : BOOL; END_VAR\n{code}END_PROGRAM\n",
         names("Start", 1..=n, ", ")
     );
     let requirements = [
@@ -214,11 +218,15 @@ fn vote(size: usize) -> (String, [String; 10]) {
         )
         .unwrap();
     }
-    let and = if size.is_multiple_of(2) { "    ANDN Hold\n" } else { "" };
+    let (hold, and) = if size.is_multiple_of(2) { (", Hold", "    ANDN Hold\n") } else { ("", "") };
     writeln!(code, "{and}    ST Out").unwrap();
+    let any = if size > 8 { ", Any" } else { "" };
+    if size > 8 {
+        code += "    LD A1\n    OR B1\n    OR C1\n    ST Any\n";
+    }
     let program = format!(
-        "PROGRAM vote\nVAR_INPUT A, B, C, Hold : BOOL; END_VAR\nVAR {}, {}, {}, SureA, SureB, SureC : BOOL; END_VAR\n\
-         VAR_OUTPUT Out : BOOL; END_VAR\n{code}END_PROGRAM\n",
+        "PROGRAM vote\nVAR_INPUT A, B, C{hold} : BOOL; END_VAR\nVAR {}, {}, {}, SureA, SureB, SureC : BOOL; END_VAR\n\
+         VAR_OUTPUT Out{any} : BOOL; END_VAR\n{code}END_PROGRAM\n",
         names("A", 1..=n, ", "),
         names("B", 1..=n, ", "),
         names("C", 1..=n, ", "),

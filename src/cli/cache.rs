@@ -3,10 +3,11 @@
 //! A file is taken only if it was written by this very program, about this very system, and is as it was written; anything else is
 //! as if it were not there. That a file cannot be written is no error: then more is computed the next time.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, SystemTime};
 
 use petril::verdict::Known;
@@ -23,9 +24,12 @@ const MOST: u64 = 64 << 20;
 const PATIENCE: Duration = Duration::from_secs(30 * 24 * 60 * 60);
 
 /// A folder of what is known.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
+    /// What was read. What this run finds is for the next one: else it would depend on the order in which programs are checked what
+    /// is known of two that are the same.
+    read: Mutex<BTreeMap<PathBuf, Option<String>>>,
     /// Stands for this program: another one may come to other results.
     petril: &'static str,
 }
@@ -35,14 +39,13 @@ impl Cache {
     pub fn open(project: Option<&Path>) -> Option<Self> {
         let named = std::env::var_os("PETRIL_CACHE").filter(|name| !name.is_empty()).map(PathBuf::from);
         let beside = || project.map(|project| project.parent().unwrap_or(Path::new("")).join(NAME));
-        Some(Self { folder: named.or_else(beside)?, petril: this_program()? })
+        Some(Self { folder: named.or_else(beside)?, read: Mutex::default(), petril: this_program()? })
     }
 
     /// What is known of a system.
     pub fn recall(&self, fingerprint: &str) -> Option<Known> {
         let path = self.path(fingerprint);
-        let size = fs::metadata(&path).ok()?.len();
-        let text = (size <= MOST).then(|| fs::read_to_string(&path).ok())??;
+        let text = self.read.lock().ok()?.entry(path.clone()).or_insert_with(|| text(&path)).clone()?;
         let (head, body) = text.split_once('\n')?;
         let known = (head == self.head(fingerprint, body)).then(|| serde_json::from_str(body).ok())??;
         // Somebody asks for it.
@@ -85,6 +88,11 @@ impl Cache {
         }
         Ok(())
     }
+}
+
+/// A file that is not too large.
+fn text(path: &Path) -> Option<String> {
+    (fs::metadata(path).ok()?.len() <= MOST).then(|| fs::read_to_string(path).ok())?
 }
 
 /// The hash of this program's own file.
