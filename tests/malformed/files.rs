@@ -114,7 +114,7 @@ fn arguments_that_ask_for_nothing_are_refused() {
     let lines: [(&[&str], &str); 12] = [
         (&[], "Usage: petril"),
         (&["frobnicate"], "unrecognized subcommand"),
-        (&["check"], "<PROGRAM"),
+        (&["check"], "there is no program to check"),
         (&["check", "p.il", "-r"], "a value is required"),
         (&["check", "p.il", "--view", "plan"], "possible values: scan, transition"),
         (&["check", "p.il", "--fair"], "--fair is for `--view transition`"),

@@ -49,3 +49,32 @@ impl Index {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Few keys of many bits that differ in one bit only: each has its own number, whatever bit that is.
+    #[test]
+    fn wide_keys_in_small_indices_are_told_apart() {
+        for bits in 2..=64_u32 {
+            let single = |bit: u32| 1_u64 << bit;
+            let all: Vec<u64> = (0..bits).map(single).chain([0]).collect();
+            for keys in [all.as_slice(), &[0, 1, single(bits - 1)], &[single(bits - 1), single(bits - 2)]] {
+                let entries = |enter: &mut dyn FnMut(u64, u32)| {
+                    keys.iter().zip(0..).for_each(|(&key, number)| enter(key, number));
+                };
+                let index = Index::of(bits, keys.len(), &entries);
+                let mut found = vec![None; keys.len()];
+                index.find(keys, |position, number| found[position] = Some(number));
+                let mut expected = vec![None; keys.len()];
+                // A key that is there twice has the number that came last.
+                entries(&mut |key, number| {
+                    let same = keys.iter().enumerate().filter(|(_, other)| **other == key);
+                    same.for_each(|(position, _)| expected[position] = Some(number));
+                });
+                assert_eq!(found, expected, "{bits} bits: {keys:x?}");
+            }
+        }
+    }
+}

@@ -201,7 +201,8 @@ impl Shape {
         } else if bits <= capacity::<u32>() + medium {
             Self::Medium(Lines::new(bits, medium))
         } else {
-            Self::Long(Lines::new(bits, long))
+            // What an entry cannot hold, its line must say, however few keys there are.
+            Self::Long(Lines::new(bits, long.max(bits.saturating_sub(capacity::<u64>()))))
         }
     }
 

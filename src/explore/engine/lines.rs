@@ -66,6 +66,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
     where
         Vec<E>: FromIterator<E>,
     {
+        debug_assert!(bits - lines <= capacity::<E>(), "an entry holds no {bits} bits in 2^{lines} lines");
         let entries = vec![E::default(); (N << lines) + N];
         let first = entries.as_ptr().align_offset(64).min(N);
         Self { entries, first, lines, rest: bits - lines, scramble: Scramble::new(bits), len: 0 }
