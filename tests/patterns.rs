@@ -1,6 +1,8 @@
 //! The patterns of requirements: for each a program where it holds, one where it fails, and the shortest run that shows it, worked
 //! out by hand; and formulas that are mistaken for patterns, where they differ.
 
+#![allow(clippy::panic, reason = "a test that panics has failed")]
+
 mod support;
 
 use petril::logic::{Demand, View, bind_requirement, parse_requirement};
