@@ -270,13 +270,23 @@ impl Teller<'_> {
             return;
         }
         let mut named = None;
-        let mut place = |at: usize| match named.replace(at) {
-            Some(before) if before == at => String::new(),
-            _ => format!("after scan {} ", at + 1),
+        let mut place = |first: usize, last: usize| match named.replace((first, last)) {
+            Some(before) if before == (first, last) => String::new(),
+            _ if first == last => format!("after scan {} ", first + 1),
+            _ => format!("after scans {} to {} ", first + 1, last + 1),
         };
-        let leads: Vec<String> = self.leads.iter().map(|(at, what)| format!("{}{what}", place(*at))).collect();
+        // What is so scan after scan is told once.
+        let mut leads: Vec<(usize, usize, &str)> = Vec::new();
+        for (at, what) in &self.leads {
+            match leads.last_mut() {
+                Some((_, last, said)) if said == what && *last + 1 == *at => *last = *at,
+                _ => leads.push((*at, *at, what)),
+            }
+        }
+        let leads: Vec<String> =
+            leads.into_iter().map(|(first, last, what)| format!("{}{what}", place(first, last))).collect();
         let so = if leads.is_empty() { String::new() } else { format!("{}, so ", enumerated(&leads)) };
-        let sentence = format!("{so}{}{wanted}, but {there_was}", place(at));
+        let sentence = format!("{so}{}{wanted}, but {there_was}", place(at, at));
         let mut letters = sentence.chars();
         let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
         self.told.sentences.push(first + letters.as_str());
