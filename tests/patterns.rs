@@ -279,6 +279,16 @@ fn every_line_is_reachable() {
     assert_eq!(notes, ["no scan ever comes to line 3 (`LD In`)", "no scan ever comes to line 4 (`ST Out`)"]);
 }
 
+#[test]
+fn a_line_that_no_jump_leads_to_is_not_reachable() {
+    let dead = bools("In", "Out", "LD In; ST Out; JMP end; LD Out; ST Out; end: LD In; ST Out");
+    let report = report(&dead, "requirement r: every_line_reachable();");
+    let witness = answer(&report, "r").outcome.witness().expect("a run");
+    let notes: Vec<&str> = witness.notes.iter().map(|note| note.text.as_str()).collect();
+    assert_eq!(notes, ["no scan ever comes to line 4 (`LD Out`)", "no scan ever comes to line 5 (`ST Out`)"]);
+    assert_eq!(report.coverage.and_then(|coverage| coverage.never_executed), Some(vec![3, 4]));
+}
+
 /// Formulas that are or have been taken for "if Done, Begun was true at the end of an earlier cycle".
 #[test]
 fn what_is_mistaken_for_leads_to_is_another_thing() {

@@ -16,17 +16,18 @@ const FIRST: usize = 256;
 /// States looked at between two questions whether to stop.
 const BATCH: usize = 256 * FIRST;
 
-/// The lines, from 0, that control could come to but never does. The graph must be a complete one of the space. `stop` is asked now
-/// and then; if it says so, nothing is known.
+/// The lines, from 0, that control never comes to, be it that no jump leads there or that none of them is ever taken. The graph must be
+/// a complete one of the space. `stop` is asked now and then; if it says so, nothing is known.
 pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut() -> bool) -> Option<Vec<usize>> {
     let program = &space.system().program;
     let possible = possible_lines(program);
+    let missing = |executed: &FixedBitSet| (0..program.end()).filter(|&line| !executed.contains(line)).collect();
     let has_choice = |line: usize| {
         let code = program.code.get(line).map(|code| code.instruction);
         matches!(code, Some(Instruction::Jump { condition, .. }) if condition != Condition::Always)
     };
     if !possible.ones().any(has_choice) {
-        return Some(Vec::new());
+        return Some(missing(&possible));
     }
     let starts = starts(graph);
     let mut executed = FixedBitSet::with_capacity(program.end() + 1);
@@ -34,7 +35,7 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut
     for state in first {
         execute(space, &space.state(*state, graph), &mut executed);
         if possible.is_subset(&executed) {
-            return Some(Vec::new());
+            return Some(missing(&possible));
         }
     }
     let none = || FixedBitSet::with_capacity(program.end() + 1);
@@ -56,7 +57,7 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut
             break;
         }
     }
-    Some(possible.difference(&executed).collect())
+    Some(missing(&executed))
 }
 
 /// States whose scans are all there are: power-on, which is `None`, and the first state of each row.

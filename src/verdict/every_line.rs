@@ -1,6 +1,7 @@
 //! The requirement that some scan comes to every line.
 
 use super::failing::what_is_missing;
+use super::remarks::dead_pieces;
 use super::views::{ScanView, SystemView};
 use super::{Note, Outcome, Witness};
 use crate::explore::never_executed;
@@ -12,6 +13,7 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
         return Outcome::Unknown(what_is_missing(graph));
     };
     let never = never_executed(&view.space, graph, &mut || false).unwrap_or_default();
+    let never = dead_pieces(&view.system().program, &never);
     if never.is_empty() {
         return Outcome::holds();
     }

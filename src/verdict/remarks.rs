@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use crate::explore::{Graph, ScanSpace};
+use crate::flat::FlatProgram;
 use crate::semantics::{Role, VarId};
 
 /// Something about all reachable states.
@@ -27,8 +28,14 @@ pub fn remarks(space: &ScanSpace<'_>, graph: &Graph, never: &[usize]) -> Vec<Rem
         graph.ids().all(|id| value(id, output) == first).then_some(Remark::NeverChanges(output, first))
     };
     let mut remarks: Vec<Remark> = program.with_role(Role::Output).filter_map(constant).collect();
+    remarks.extend(dead_pieces(program, never).into_iter().map(Remark::NeverExecuted));
+    remarks
+}
+
+/// Of lines that are never executed, the first of each piece of source. What comes from one piece, as the code of a function at each
+/// call, must be dead everywhere.
+pub fn dead_pieces(program: &FlatProgram, never: &[usize]) -> Vec<usize> {
     let mut spans: BTreeSet<_> = never.iter().map(|&line| program.code[line].span).collect();
-    // What comes from one piece of source, as the code of a function at each call, must be dead everywhere.
     let is_dead: BTreeSet<usize> = never.iter().copied().collect();
     for (line, code) in program.code.iter().enumerate() {
         if !is_dead.contains(&line) {
@@ -36,10 +43,9 @@ pub fn remarks(space: &ScanSpace<'_>, graph: &Graph, never: &[usize]) -> Vec<Rem
         }
     }
     let mut seen = BTreeSet::new();
-    let dead = never.iter().copied().filter(|&line| {
+    let is_first = |&line: &usize| {
         let span = program.code[line].span;
         spans.contains(&span) && seen.insert(span)
-    });
-    remarks.extend(dead.map(Remark::NeverExecuted));
-    remarks
+    };
+    never.iter().copied().filter(is_first).collect()
 }
