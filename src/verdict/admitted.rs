@@ -1,5 +1,6 @@
 //! The check that the assumptions leave some inputs, made wherever there are assumptions: what excludes everything proves everything.
 
+use super::failing::what_is_missing;
 use super::views::{ScanView, SystemView};
 use super::{Answer, Note, Outcome, Witness};
 use crate::explore::{Graph, Stop};

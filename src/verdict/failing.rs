@@ -56,6 +56,9 @@ fn event(hazard: Hazard) -> &'static str {
 /// Why not everything is known: the search was ended, or scans lead nowhere.
 pub fn what_is_missing(graph: &Graph) -> String {
     match graph.failures().first() {
+        None if graph.is_complete() && graph.is_empty() => {
+            "the assumptions allow no inputs for the first scan, so nothing was explored".to_owned()
+        }
         _ if *graph.stop() != Stop::Complete => {
             format!("{}; the {} states explored do not decide it", graph.stop(), graph.len())
         }

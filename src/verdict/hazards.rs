@@ -40,7 +40,7 @@ pub fn formula(system: &System, hazard: Hazard) -> Bound {
 pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph, hazard: Hazard) -> Outcome {
     let met = |failure: &Failure| matches!(failure, Failure::Hazard(_, met) if *met == hazard);
     match failing_scan(space, graph, met) {
-        Failing::None if graph.is_complete() => Outcome::holds(),
+        Failing::None if graph.is_complete() && graph.knows_initial() => Outcome::holds(),
         Failing::None => Outcome::Unknown(super::failing::what_is_missing(graph)),
         Failing::Shown(witness) => Outcome::Violated(witness, None),
         Failing::Refuted(disagreement) => super::check::disagreed(&disagreement.to_string()),

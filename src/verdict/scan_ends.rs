@@ -44,7 +44,7 @@ pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
         Outcome::Unknown(format!("a scan takes more than {MAX_STEPS} instructions"))
     } else if *graph.stop() != Stop::Complete {
         Outcome::Unknown(format!("{}; the scans explored do end", graph.stop()))
-    } else if graph.is_complete() || !has_loops(&space.system().program) {
+    } else if graph.is_complete() && graph.knows_initial() || !has_loops(&space.system().program) {
         Outcome::holds()
     } else {
         Outcome::Unknown(what_is_missing(graph))
