@@ -15,9 +15,7 @@ pub fn answer(outcome: Outcome) -> Answer {
 pub fn outcome(view: &ScanView<'_>) -> Outcome {
     let graph = &view.graph;
     if graph.initial().is_empty() && graph.failures().is_empty() && *graph.stop() == Stop::Complete {
-        return Outcome::Unknown(
-            "the assumptions allow no inputs for the first scan, so nothing was explored".to_owned(),
-        );
+        return Outcome::Unknown(what_is_missing(graph));
     }
     match dead_end(graph) {
         Some(state) => shown(view, state),
