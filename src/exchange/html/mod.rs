@@ -1,6 +1,6 @@
 //! Reports as one page for a browser: a file that needs nothing else, to be mailed and kept.
 //!
-//! The page is made of the files beside this one. What was found stands in it as JSON ([`document`]), and its script makes all
+//! The page is made of the files beside this one. What was found stands in it as JSON (`document`), and its script makes all
 //! markup of it, by names and texts that are never read as markup. A content security policy lets nothing run but that script
 //! and nothing be fetched.
 
