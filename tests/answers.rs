@@ -14,7 +14,6 @@ use petril::logic::{
     Bound, Comparison, Dag, Past, Quantifier, Requirement, Term, Valuation, View, bind_assumption, bind_requirement,
     parse_requirement, parse_requirements,
 };
-use petril::net::{PlaceId, TransitionId};
 use petril::semantics::{Role, VarId};
 use petril::source::Source;
 use petril::translate::System;
@@ -360,22 +359,6 @@ impl Valuation for Moment<'_, '_> {
                 i128::try_from(run).unwrap().min(i128::from(*most))
             }
         }
-    }
-
-    fn is_marked(&self, _: PlaceId) -> bool {
-        false
-    }
-
-    fn tokens(&self, _: PlaceId) -> u64 {
-        0
-    }
-
-    fn is_enabled(&self, _: TransitionId) -> bool {
-        false
-    }
-
-    fn is_deadlock(&self) -> bool {
-        false
     }
 }
 

@@ -12,28 +12,9 @@ use petril::flat::Hazard;
 use petril::translate::System;
 use petril::verdict::{Outcome, Report, Trace, Verdict};
 use petril::witness::ScanTrace;
+use support::forms::EXAMPLES;
 use support::reports::{counterexample, report, values, verdicts};
 use support::systems::system;
-
-/// Examples and the nets they are checked with.
-const EXAMPLES: [(&str, &str); 16] = [
-    ("bottle-counter", "bottle-counter"),
-    ("bottle-counter-broken", "bottle-counter"),
-    ("drill-station", "drill-station"),
-    ("emergency-stop", "emergency-stop"),
-    ("emergency-stop-broken", "emergency-stop"),
-    ("latching-starter", "latching-starter"),
-    ("reversing-motor", "reversing-motor"),
-    ("reversing-motor-broken", "reversing-motor"),
-    ("star-delta", "star-delta"),
-    ("star-delta-broken", "star-delta"),
-    ("tank", "tank"),
-    ("tank-broken", "tank"),
-    ("two-hand-control", "two-hand-control"),
-    ("two-hand-control-broken", "two-hand-control"),
-    ("two-hand-switch", "two-hand-switch"),
-    ("two-hand-switch-broken", "two-hand-switch"),
-];
 
 fn read(path: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()

@@ -7,7 +7,6 @@ use super::parse::AssumptionText;
 use super::past::Past;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::explore::Admission;
-use crate::net::{PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
 use crate::translate::System;
 
@@ -168,21 +167,5 @@ impl Valuation for Moment<'_> {
             }
             Past::First | Past::Since(..) | Past::Run { .. } => 0,
         }
-    }
-
-    fn is_marked(&self, _: PlaceId) -> bool {
-        false
-    }
-
-    fn tokens(&self, _: PlaceId) -> u64 {
-        0
-    }
-
-    fn is_enabled(&self, _: TransitionId) -> bool {
-        false
-    }
-
-    fn is_deadlock(&self) -> bool {
-        false
     }
 }

@@ -89,14 +89,22 @@ pub trait Valuation {
         debug_assert!(false, "nothing is remembered here: {past:?}");
         0
     }
-    /// Whether a place is marked.
-    fn is_marked(&self, place: PlaceId) -> bool;
+    /// Whether a place is marked. No place is where states are ends of scans, unless they say so.
+    fn is_marked(&self, _: PlaceId) -> bool {
+        false
+    }
     /// How many tokens a place holds.
-    fn tokens(&self, place: PlaceId) -> u64;
-    /// Whether a transition is enabled.
-    fn is_enabled(&self, transition: TransitionId) -> bool;
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.is_marked(place))
+    }
+    /// Whether a transition is enabled. None is where states are ends of scans.
+    fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
     /// Whether no transition is enabled.
-    fn is_deadlock(&self) -> bool;
+    fn is_deadlock(&self) -> bool {
+        false
+    }
 }
 
 impl Bound {

@@ -17,18 +17,6 @@ impl Valuation for ScanValuation<'_> {
     fn is_marked(&self, place: PlaceId) -> bool {
         self.0.is_marked(self.1, place)
     }
-
-    fn tokens(&self, place: PlaceId) -> u64 {
-        u64::from(self.is_marked(place))
-    }
-
-    fn is_enabled(&self, _: TransitionId) -> bool {
-        false
-    }
-
-    fn is_deadlock(&self) -> bool {
-        false
-    }
 }
 
 /// A packed scan state beside what is remembered of those before it.
@@ -56,18 +44,6 @@ impl Valuation for RememberingValuation<'_> {
 
     fn is_marked(&self, place: PlaceId) -> bool {
         self.space.is_marked(self.state, place)
-    }
-
-    fn tokens(&self, place: PlaceId) -> u64 {
-        u64::from(self.is_marked(place))
-    }
-
-    fn is_enabled(&self, _: TransitionId) -> bool {
-        false
-    }
-
-    fn is_deadlock(&self) -> bool {
-        false
     }
 }
 
@@ -125,10 +101,6 @@ impl Valuation for MarkingValuation<'_> {
 
     fn is_marked(&self, place: PlaceId) -> bool {
         self.0.is_marked(self.1, place)
-    }
-
-    fn tokens(&self, place: PlaceId) -> u64 {
-        u64::from(self.is_marked(place))
     }
 
     fn is_enabled(&self, transition: TransitionId) -> bool {

@@ -1,7 +1,6 @@
 //! A condition along a run, scan by scan, with what it has to remember.
 
 use crate::logic::{Bound, History, Past, Valuation, remembered};
-use crate::net::{PlaceId, TransitionId};
 use crate::semantics::VarId;
 
 /// Watches a condition that is about the end of a scan and perhaps about scans before.
@@ -56,21 +55,5 @@ impl Valuation for Moment<'_> {
         let word = self.history.position(past).and_then(|position| self.memory.get(position));
         debug_assert!(word.is_some(), "this is not remembered: {past:?}");
         remembered(word.copied().unwrap_or_default())
-    }
-
-    fn is_marked(&self, _: PlaceId) -> bool {
-        false
-    }
-
-    fn tokens(&self, _: PlaceId) -> u64 {
-        0
-    }
-
-    fn is_enabled(&self, _: TransitionId) -> bool {
-        false
-    }
-
-    fn is_deadlock(&self) -> bool {
-        false
     }
 }

@@ -1,7 +1,7 @@
 //! What a replayed run says of the past, by the definitions: every question goes back through the scans again.
 
 use crate::logic::{Bound, Past, Valuation};
-use crate::net::{Marking, PlaceId, TransitionId};
+use crate::net::{Marking, PlaceId};
 use crate::semantics::VarId;
 
 /// The values of the variables at power-on and at the ends of the scans so far, as the net had them.
@@ -98,17 +98,5 @@ impl Valuation for At<'_> {
     fn is_marked(&self, place: PlaceId) -> bool {
         let is_last = self.scan.is_some_and(|scan| scan + 1 == self.recalled.ends.len());
         is_last && self.recalled.marking.as_ref().is_some_and(|marking| marking.is_marked(place))
-    }
-
-    fn tokens(&self, place: PlaceId) -> u64 {
-        u64::from(self.is_marked(place))
-    }
-
-    fn is_enabled(&self, _: TransitionId) -> bool {
-        false
-    }
-
-    fn is_deadlock(&self) -> bool {
-        false
     }
 }
