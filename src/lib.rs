@@ -46,6 +46,7 @@ pub mod logic;
 pub mod net;
 mod rows;
 pub mod semantics;
+pub mod sif;
 pub mod simulate;
 pub mod source;
 pub mod structure;

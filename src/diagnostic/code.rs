@@ -15,7 +15,7 @@ macro_rules! codes {
     ($($(#[doc = $summary:literal])+ $name:ident = $id:literal,)+) => {
         /// A known problem. The hundreds of its number say where it is found: 01 syntax, 02 declarations and names, 03
         /// instructions, 04 nets and plants, 05 requirements, 06 input tables, 07 the letter of the standard,
-        /// which is asked for with `--strict`, 08 project files.
+        /// which is asked for with `--strict`, 08 project files, 09 specifications of safety functions.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code { $($(#[doc = $summary])+ $name,)+ }
 
@@ -256,6 +256,23 @@ codes! {
     ProjectProgram = "E0804",
     /// Two entries of a project have the same name.
     ProjectName = "E0805",
+
+    /// A specification of safety functions is not what its grammar expects.
+    SifSyntax = "E0901",
+    /// A restriction does not say whether its formula is never or always so.
+    SifPolarity = "E0902",
+    /// A formula names a signal that does not exist, or cannot be named there.
+    SifNameUnknown = "E0903",
+    /// Two things of a specification have the same name.
+    SifNameTwice = "E0904",
+    /// A signal is declared in two ways that do not go together.
+    SifDeclaredDifferently = "E0905",
+    /// An output has no equation, or a function no output.
+    SifNotDefined = "E0906",
+    /// An equation defines what is no output or auxiliary value of its function.
+    SifNotDefinable = "E0907",
+    /// A value is defined by way of itself.
+    SifCycle = "E0908",
 }
 
 impl Code {

@@ -1,0 +1,192 @@
+//! Sets of valuations as binary decision diagrams, counted and listed: the only file that knows their library.
+//!
+//! After Bryant, "Graph-based algorithms for Boolean function manipulation" (1986). A diagram may have only so many nodes;
+//! where it would have more there is none, and whoever asked has to do without.
+
+use biodivine_lib_bdd::{Bdd, BddVariable, BddVariableSet, op_function};
+use fixedbitset::FixedBitSet;
+
+use super::formula::{Formula, Operator, SignalId};
+
+/// Diagrams over some signals.
+pub struct Diagrams {
+    variables: BddVariableSet,
+    /// Which signal each variable is.
+    order: Vec<SignalId>,
+    /// The variable of each signal.
+    of: Vec<Option<BddVariable>>,
+    limit: usize,
+}
+
+/// A set of valuations of the signals of its [`Diagrams`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagram(Bdd);
+
+/// Some signals with values, and what is true of all valuations that have these: those of `ones` are TRUE, those of `zeros` FALSE.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cube {
+    /// The signals that are TRUE.
+    pub ones: Vec<SignalId>,
+    /// The signals that are FALSE.
+    pub zeros: Vec<SignalId>,
+}
+
+/// Most signals that diagrams are about, a limit of their library.
+const MAX_SIGNALS: usize = u16::MAX as usize - 2;
+
+impl Diagrams {
+    /// Diagrams of up to `limit` nodes over some of so many signals, which are asked in this order. Nothing if they are too many.
+    #[must_use]
+    pub fn over(order: Vec<SignalId>, signals: usize, limit: usize) -> Option<Self> {
+        let count = u16::try_from(order.len().min(MAX_SIGNALS + 1)).ok().filter(|_| order.len() <= MAX_SIGNALS)?;
+        let variables = BddVariableSet::new_anonymous(count);
+        let mut of = vec![None; signals];
+        order.iter().zip(variables.variables()).for_each(|(signal, variable)| of[signal.0] = Some(variable));
+        Some(Self { variables, order, of, limit })
+    }
+
+    /// All valuations, or none.
+    #[must_use]
+    pub fn constant(&self, value: bool) -> Diagram {
+        Diagram(if value { self.variables.mk_true() } else { self.variables.mk_false() })
+    }
+
+    /// Where a signal is TRUE. Nothing if diagrams are not about it.
+    #[must_use]
+    pub fn signal(&self, signal: SignalId) -> Option<Diagram> {
+        let variable = self.of.get(signal.0).copied().flatten()?;
+        Some(Diagram(self.variables.mk_var(variable)))
+    }
+
+    /// Where both are so.
+    #[must_use]
+    pub fn and(&self, a: &Diagram, b: &Diagram) -> Option<Diagram> {
+        Bdd::binary_op_with_limit(self.limit, &a.0, &b.0, op_function::and).map(Diagram)
+    }
+
+    /// Where one at least is so.
+    #[must_use]
+    pub fn or(&self, a: &Diagram, b: &Diagram) -> Option<Diagram> {
+        Bdd::binary_op_with_limit(self.limit, &a.0, &b.0, op_function::or).map(Diagram)
+    }
+
+    /// Where they differ.
+    #[must_use]
+    pub fn xor(&self, a: &Diagram, b: &Diagram) -> Option<Diagram> {
+        Bdd::binary_op_with_limit(self.limit, &a.0, &b.0, op_function::xor).map(Diagram)
+    }
+
+    /// Where a formula is true, if signals are so where `value` says. Nothing if a part of it would become too large.
+    #[must_use]
+    pub fn formula(&self, formula: &Formula, value: &impl Fn(SignalId) -> Option<Diagram>) -> Option<Diagram> {
+        match formula {
+            Formula::Constant(truth) => Some(self.constant(*truth)),
+            Formula::Signal(signal) => value(*signal),
+            Formula::Not(inner) => self.formula(inner, value).map(|inner| inner.complement()),
+            Formula::Gate(operator, operands) => {
+                let operands: Option<Vec<Diagram>> =
+                    operands.iter().map(|operand| self.formula(operand, value)).collect();
+                self.operator(*operator, &operands?)
+            }
+        }
+    }
+
+    fn operator(&self, operator: Operator, operands: &[Diagram]) -> Option<Diagram> {
+        let mut all = operands.iter();
+        let first = all.next().cloned().unwrap_or_else(|| self.constant(false));
+        match operator {
+            Operator::And => all.try_fold(first, |and, operand| self.and(&and, operand)),
+            Operator::Or => all.try_fold(first, |or, operand| self.or(&or, operand)),
+            Operator::Xor => all.try_fold(first, |odd, operand| self.xor(&odd, operand)),
+            Operator::Iff => all.try_fold(first, |odd, operand| self.xor(&odd, operand)).map(|odd| odd.complement()),
+            Operator::Implies => all.try_fold(first.complement(), |or, operand| self.or(&or, operand)),
+            Operator::AtMostOne | Operator::ExactlyOne => {
+                let (mut one, mut two) = (self.constant(false), self.constant(false));
+                for operand in operands {
+                    two = self.or(&two, &self.and(&one, operand)?)?;
+                    one = self.or(&one, operand)?;
+                }
+                let at_most = two.complement();
+                if operator == Operator::AtMostOne { Some(at_most) } else { self.and(&one, &at_most) }
+            }
+        }
+    }
+
+    /// The set without the difference that these signals make: the valuations for which some values of them are in it.
+    #[must_use]
+    pub fn whatever(&self, diagram: &Diagram, signals: &[SignalId]) -> Option<Diagram> {
+        let mut found = diagram.clone();
+        for signal in signals {
+            let variable = self.of.get(signal.0).copied().flatten()?;
+            found = Diagram(found.0.var_exists(variable));
+            if found.0.size() > self.limit {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    /// How many valuations of all signals are in a set, as a decimal number.
+    #[must_use]
+    pub fn count(&self, diagram: &Diagram) -> String {
+        diagram.0.exact_cardinality().to_string()
+    }
+
+    /// How many they are, if they are not too many for a number of 64 bits.
+    #[must_use]
+    pub fn count_if_few(&self, diagram: &Diagram) -> Option<u64> {
+        u64::try_from(diagram.0.exact_cardinality()).ok()
+    }
+
+    /// The valuations in a set, as the signals that are TRUE, in an order that is always the same.
+    pub fn valuations<'d>(&'d self, diagram: &'d Diagram) -> impl Iterator<Item = FixedBitSet> + 'd {
+        diagram.0.sat_valuations().map(|valuation| {
+            let ones =
+                self.order.iter().zip(self.variables.variables()).filter(|(_, variable)| valuation.value(*variable));
+            let mut set = FixedBitSet::with_capacity(self.of.len());
+            ones.for_each(|(signal, _)| set.insert(signal.0));
+            set
+        })
+    }
+
+    /// Cubes that have nothing in common and make up the set.
+    pub fn cubes<'d>(&'d self, diagram: &'d Diagram) -> impl Iterator<Item = Cube> + 'd {
+        diagram.0.sat_clauses().map(|clause| {
+            let mut cube = Cube { ones: Vec::new(), zeros: Vec::new() };
+            for (&signal, variable) in self.order.iter().zip(self.variables.variables()) {
+                match clause.get_value(variable) {
+                    Some(true) => cube.ones.push(signal),
+                    Some(false) => cube.zeros.push(signal),
+                    None => {}
+                }
+            }
+            cube
+        })
+    }
+}
+
+impl Diagram {
+    /// All other valuations.
+    #[must_use]
+    pub fn complement(&self) -> Self {
+        Self(self.0.not())
+    }
+
+    /// Whether no valuation is in it.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_false()
+    }
+
+    /// Whether every valuation is.
+    #[must_use]
+    pub fn is_all(&self) -> bool {
+        self.0.is_true()
+    }
+
+    /// How many nodes it has.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.0.size()
+    }
+}

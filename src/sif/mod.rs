@@ -1,0 +1,31 @@
+//! Safety instrumented functions (SIF): Boolean specifications, what is wrong with them, tests that find faults, and proofs
+//! that a program computes them. After seed paper 002 (a personnel protection system).
+//!
+//! ```
+//! use petril::sif::Specification;
+//! use petril::source::Source;
+//!
+//! let text = "function F1 {
+//!     interface { input door; input beam; output stop; }
+//!     formal    { stop = beam & !door; }
+//! }";
+//! let (specification, _) = Specification::read(&[Source::new("door.sif", text)]);
+//! let specification = specification.unwrap();
+//! let stop = &specification.functions[0].outputs[0];
+//! assert_eq!(specification.text(specification.definition(*stop).unwrap()), "beam & !door");
+//! ```
+
+mod cone;
+mod diagram;
+mod formula;
+mod parse;
+mod resolve;
+mod solver;
+mod specification;
+mod written;
+
+pub use cone::{Cone, Encoded};
+pub use diagram::{Cube, Diagram, Diagrams};
+pub use formula::{Formula, Operator, SignalId};
+pub use solver::{Answer, Literal, Solver, Stop};
+pub use specification::{Binding, Function, Kind, Place, Restriction, Scope, Signal, Specification, Zone};
