@@ -8,6 +8,7 @@ use petril::verdict::Examination;
 
 use super::forms::Forms;
 use super::meaning::{Meaning, Reading};
+use super::sif::args::SifVerb;
 
 /// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
 ///
@@ -50,6 +51,9 @@ pub enum Verb {
     /// Work on any place/transition net.
     #[command(subcommand)]
     Net(NetVerb),
+    /// Safety functions: check their specification, make tests of it, prove a program against it.
+    #[command(subcommand)]
+    Sif(SifVerb),
     /// Explain a code like E0201 that stands in a message.
     Explain(Explain),
     /// Write an example of a project, to begin with.

@@ -31,6 +31,7 @@ mod project;
 mod report;
 mod requirements;
 mod seen;
+mod sif;
 mod simulate;
 mod translate;
 mod watch;
@@ -79,6 +80,7 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Check(arguments)) => arguments.on.json,
         Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
         Verb::Net(NetVerb::Reduce(arguments)) => arguments.json,
+        Verb::Sif(verb) => verb.wants_json(),
         _ => false,
     };
     let outcome = match args.verb {
@@ -92,6 +94,7 @@ pub fn run() -> ExitCode {
         Verb::Net(NetVerb::Convert(arguments)) => net_convert::run(&arguments, &console),
         Verb::Net(NetVerb::Explore(arguments)) => net_explore::run(&arguments, &console),
         Verb::Net(NetVerb::Reduce(arguments)) => net_reduce::run(&arguments, &console),
+        Verb::Sif(verb) => sif::run(&verb, &console),
         Verb::Explain(arguments) => explain::run(&arguments, &console),
         Verb::Init(arguments) => init::run(&arguments, &console),
         Verb::Completions(arguments) => completions::run(&arguments, &console),

@@ -1,0 +1,43 @@
+//! `petril sif`: safety functions, from their specification to tests and proofs. One file for each verb.
+
+pub mod args;
+mod check;
+
+use std::path::{Path, PathBuf};
+
+use petril::diagnostic::any_error;
+use petril::sif::Specification;
+use petril::source::Source;
+
+use super::console::Console;
+use super::input::{MAX_TEXT, source};
+use super::{Failure, Outcome};
+use args::SifVerb;
+
+pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
+    match verb {
+        SifVerb::Check(arguments) => check::run(arguments, console),
+    }
+}
+
+/// A specification with the texts it was read from.
+struct Read {
+    specification: Specification,
+    #[expect(dead_code, reason = "for places in reports")]
+    sources: Vec<Source>,
+}
+
+/// Reads files as one specification. Their diagnostics are printed, warnings too.
+fn specification(paths: &[PathBuf], console: &Console) -> Result<Read, Failure> {
+    let sources: Result<Vec<Source>, Failure> =
+        paths.iter().map(|path: &PathBuf| source(Path::new(path), MAX_TEXT, console)).collect();
+    let sources = sources?;
+    let (specification, diagnostics) = Specification::read(&sources);
+    for (source, diagnostics) in sources.iter().zip(&diagnostics) {
+        console.diagnostics(diagnostics, source);
+    }
+    match specification {
+        Some(specification) if !diagnostics.iter().any(|list| any_error(list)) => Ok(Read { specification, sources }),
+        _ => Err(Failure::Reported),
+    }
+}
