@@ -85,7 +85,10 @@ impl Resolver<'_> {
             let at = Place::default();
             self.report(at, Diagnostic::new(Code::SifNotDefined, at.span, message).help(help));
         }
-        self.put_in_order();
+        // An unknown name stands for any signal.
+        if !self.diagnostics.iter().any(|list| any_error(list)) {
+            self.put_in_order();
+        }
     }
 
     fn report(&mut self, at: Place, diagnostic: Diagnostic) {

@@ -9,6 +9,8 @@ use clap::Subcommand;
 pub enum SifVerb {
     /// Check that a specification makes sense: restrictions, unused inputs, functions that never change.
     Check(SifCheck),
+    /// Write a specification as requirements, for `petril check`.
+    Requirements(SifRequirements),
 }
 
 impl SifVerb {
@@ -16,6 +18,7 @@ impl SifVerb {
     pub fn wants_json(&self) -> bool {
         match self {
             Self::Check(arguments) => arguments.json,
+            Self::Requirements(_) => false,
         }
     }
 }
@@ -29,4 +32,22 @@ pub struct SifCheck {
     /// Print one JSON document.
     #[arg(long)]
     pub json: bool,
+}
+
+/// `petril sif requirements`
+///
+/// Restrictions of the whole system become assumptions, those of a zone or a function premises. `petril check` then explores the
+/// program's states, on the Petri net too, and decides what is said of time.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Example:
+  petril sif requirements examples/beam-interlock.sif -o f1.req
+  petril check examples/beam-interlock.il --require f1.req")]
+pub struct SifRequirements {
+    /// The specification. Several files are read as one.
+    #[arg(value_name = "SPEC", required = true)]
+    pub specification: Vec<PathBuf>,
+    /// Where to write; standard output if not given.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
