@@ -273,6 +273,32 @@ codes! {
     SifNotDefinable = "E0907",
     /// A value is defined by way of itself.
     SifCycle = "E0908",
+    /// No equation uses an input.
+    SifInputNotUsed = "W0920",
+    /// An input makes no difference to any output.
+    SifInputWithoutEffect = "W0921",
+    /// A function lists an input and does not use it.
+    SifInputListed = "W0922",
+    /// A function uses a signal and does not list it.
+    SifInputNotListed = "W0923",
+    /// An output is always the same.
+    SifConstant = "W0924",
+    /// Restrictions contradict each other.
+    SifContradiction = "W0925",
+    /// A restriction excludes nothing that others do not.
+    SifImplied = "W0926",
+    /// A restriction has nothing to do with what it is about.
+    SifApart = "W0927",
+    /// Restrictions remove every test of a cause.
+    SifCauseRemoved = "W0928",
+    /// A literal never decides an output because of restrictions.
+    SifNeverDecides = "W0929",
+    /// Two outputs are always the same, or always opposites.
+    SifSame = "W0930",
+    /// A latched output is never reset.
+    SifResetNever = "W0931",
+    /// A question about a specification could not be decided.
+    SifNotDecided = "W0932",
 }
 
 impl Code {

@@ -115,21 +115,27 @@ impl Diagrams {
     /// The set without the difference that these signals make: the valuations for which some values of them are in it.
     #[must_use]
     pub fn whatever(&self, diagram: &Diagram, signals: &[SignalId]) -> Option<Diagram> {
-        let mut found = diagram.clone();
+        let mut found = diagram.0.clone();
         for signal in signals {
             let variable = self.of.get(signal.0).copied().flatten()?;
-            found = Diagram(found.0.var_exists(variable));
-            if found.0.size() > self.limit {
-                return None;
+            if found.support_set().contains(&variable) {
+                let (without, with) = (found.var_restrict(variable, false), found.var_restrict(variable, true));
+                found = Bdd::binary_op_with_limit(self.limit, &without, &with, op_function::or)?;
             }
         }
-        Some(found)
+        Some(Diagram(found))
     }
 
     /// How many valuations of all signals are in a set, as a decimal number.
     #[must_use]
     pub fn count(&self, diagram: &Diagram) -> String {
         diagram.0.exact_cardinality().to_string()
+    }
+
+    /// How many valuations of all but some signals are in a set that these make no difference to, as a decimal number.
+    #[must_use]
+    pub fn count_without(&self, diagram: &Diagram, signals: &[SignalId]) -> String {
+        (diagram.0.exact_cardinality() >> signals.len()).to_string()
     }
 
     /// How many they are, if they are not too many for a number of 64 bits.

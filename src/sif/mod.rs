@@ -22,6 +22,7 @@ mod parse;
 mod plan;
 mod requirements;
 mod resolve;
+pub mod sanity;
 mod solver;
 mod specification;
 mod written;

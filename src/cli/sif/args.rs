@@ -32,6 +32,9 @@ pub struct SifCheck {
     /// Print one JSON document.
     #[arg(long)]
     pub json: bool,
+    /// Stop after this many seconds; what is open then is said.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    pub timeout: f64,
 }
 
 /// `petril sif requirements`

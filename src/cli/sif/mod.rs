@@ -25,7 +25,6 @@ pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
 /// A specification with the texts it was read from.
 struct Read {
     specification: Specification,
-    #[expect(dead_code, reason = "for places in reports")]
     sources: Vec<Source>,
 }
 

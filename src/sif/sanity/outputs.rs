@@ -1,0 +1,76 @@
+//! Outputs that are always the same, and latched ones that are never reset.
+
+use super::super::formula::SignalId;
+use super::super::solver::Answer;
+use super::super::specification::{Kind, Place, Specification};
+use super::finding::{Doubt, Finding};
+use super::model::Model;
+
+/// The outputs of a function whose formula is always TRUE or always FALSE, as findings and by themselves.
+pub fn constant(model: &mut Model<'_>, function: usize) -> (Vec<Finding>, Vec<SignalId>) {
+    let (mut findings, mut constant) = (Vec::new(), Vec::new());
+    let specification = model.specification;
+    for &output in &specification.functions[function].outputs {
+        let formula = model.values.formula[output.0];
+        for value in [false, true] {
+            // Is it ever otherwise?
+            let wanted = [if value { !formula } else { formula }];
+            let place = equation(specification, output);
+            match model.ask_allowed(&wanted) {
+                Answer::Satisfiable => {}
+                Answer::Unsatisfiable => {
+                    let about = model.cone.inputs.clone();
+                    let (core, example) = model.explained(&wanted, &about);
+                    let finding =
+                        Finding { value, ..Finding::new(Doubt::Constant, place).of(function).signals([output]) };
+                    let finding = match specification.definition(output) {
+                        Some(formula) => finding.formula(formula.clone()),
+                        None => finding,
+                    };
+                    findings.push(finding.because(core, example));
+                    constant.push(output);
+                    break;
+                }
+                Answer::Stopped => {
+                    let other = if value { "FALSE" } else { "TRUE" };
+                    let question = format!("`{}` is ever {other}", specification.name(output));
+                    findings.push(Finding::open(place, question).of(function));
+                }
+            }
+        }
+    }
+    (findings, constant)
+}
+
+/// The latched outputs of a function, but for those that never change, that are never reset: the reset is FALSE, or does not count because what sets is TRUE.
+pub fn resets(model: &mut Model<'_>, function: usize, constant: &[SignalId]) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let specification = model.specification;
+    for &output in specification.functions[function].outputs.iter().filter(|output| !constant.contains(output)) {
+        let Kind::Defined { latched: Some(reset), .. } = &specification.signal(output).kind else { continue };
+        let place = specification.signal(output).place;
+        let wanted = [model.values.reset[output.0], !model.values.formula[output.0]];
+        match model.ask_allowed(&wanted) {
+            Answer::Satisfiable => {}
+            Answer::Unsatisfiable => {
+                let about = model.cone.inputs.clone();
+                let (core, example) = model.explained(&wanted, &about);
+                let finding = Finding::new(Doubt::ResetNever, place).of(function).signals([output]);
+                findings.push(finding.formula(reset.clone()).because(core, example));
+            }
+            Answer::Stopped => {
+                let question = format!("`{}` is ever reset", specification.name(output));
+                findings.push(Finding::open(place, question).of(function));
+            }
+        }
+    }
+    findings
+}
+
+/// Where the equation of a signal stands.
+pub fn equation(specification: &Specification, id: SignalId) -> Place {
+    match &specification.signal(id).kind {
+        Kind::Defined { place, .. } => *place,
+        Kind::Input { .. } => specification.signal(id).place,
+    }
+}
