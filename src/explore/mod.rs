@@ -28,6 +28,7 @@ mod tarjan;
 mod walk;
 
 pub use asserted::{Seen, first_at_lines};
+pub use circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
 pub use budget::{Budget, Progress, Stop};
 pub use components::{Components, components};
 pub use coverage::never_executed;
