@@ -36,11 +36,12 @@ fn agree(program: &FlatProgram, gates: &ScanGates, tolerated: Tolerated, seed: u
             machine.set(VarId(variable), lanes.pattern(wires, scan));
         }
         let ended = machine.scan();
-        prop_assert!(ended.is_ok());
         let met = gates.errors.iter().filter(|(wire, ..)| lanes.word(*wire) >> scan & 1 == 1);
         let met: Vec<_> = met.map(|&(_, line, hazard)| (line, hazard)).collect();
         prop_assert_eq!(&met, &tolerated.first_error(machine.hazards()).into_iter().collect::<Vec<_>>());
         errors += met.len();
+        // After an error, a scan may be kept from ending.
+        prop_assert!(ended.is_ok() || !met.is_empty());
         if met.is_empty() {
             for (variable, wires) in gates.end.iter().enumerate() {
                 if program.variables[variable].role != Role::Buffer {
