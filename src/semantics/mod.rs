@@ -258,7 +258,7 @@ fn variables(symbols: &Symbols) -> Vec<Variable> {
         shape: symbol.shape.clone().unwrap_or(Shape::Scalar(Scalar::new(Type::BOOL))),
         initial: symbol.initial.clone(),
         area: symbol.area(),
-        address: symbol.location.as_ref().map(|location| address::spelling(&location.text)),
+        address: symbol.location.as_ref().map(|location| spelling(&location.text)),
         span: symbol.span,
     });
     variables.collect()

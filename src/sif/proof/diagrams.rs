@@ -4,8 +4,7 @@ use fixedbitset::FixedBitSet;
 
 use super::subject::{Claim, Form, Subject};
 use crate::explore::{Gate, ScanGates, Wire};
-use crate::sif::diagram::{Diagram, Diagrams};
-use crate::sif::{Kind, SignalId};
+use crate::sif::{Diagram, Diagrams, Kind, SignalId};
 
 /// Nodes of a diagram, at most.
 const MAX_NODES: usize = 1 << 14;
@@ -83,7 +82,8 @@ impl<'a> Opinion<'a> {
         }
         let free = subject.definitions.iter().filter(|id| subject.latch(**id).is_some()).chain(&subject.outside);
         order.extend(free.map(|id| SignalId(gates.inputs.len() + id.0)));
-        let diagrams = Diagrams::over(order, MAX_NODES)?;
+        let signals = gates.inputs.len() + subject.specification.signals.len();
+        let diagrams = Diagrams::over(order, signals, MAX_NODES)?;
         Some(Self { subject, gates, diagrams, nodes: vec![None; seen.len()], work: 0 })
     }
 

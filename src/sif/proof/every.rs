@@ -5,10 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use super::run::{Failure, Given, Run};
 use super::subject::Subject;
 use crate::semantics::Role;
-use crate::sif::solver::Stop;
-
-/// Scans computed, at most.
-pub(super) const MAX_SCANS: u64 = 1 << 20;
+use crate::sif::Stop;
 
 /// Bits of inputs, at most.
 const MAX_BITS: u32 = 16;
@@ -57,8 +54,15 @@ fn readings(subject: &Subject<'_>) -> Option<Vec<Given>> {
     (subject.outside.len() <= MAX_BITS as usize).then(|| (0..count).map(reading).collect())
 }
 
-/// Explores all states by scans that keep these restrictions, and looks at these claims. Nothing if inputs are too many.
-pub(super) fn every(subject: &Subject<'_>, restrictions: &[usize], claims: &[usize], stop: &Stop) -> Option<Seen> {
+/// Explores all states by scans that keep these restrictions, up to so many scans, and looks at these claims. Nothing if inputs
+/// are too many.
+pub(super) fn every(
+    subject: &Subject<'_>,
+    restrictions: &[usize],
+    claims: &[usize],
+    limit: u64,
+    stop: &Stop,
+) -> Option<Seen> {
     let readings = readings(subject)?;
     let carried = subject.program.carried();
     let key = |(memory, latches): &(Vec<u64>, Vec<bool>)| -> Vec<u64> {
@@ -83,11 +87,12 @@ pub(super) fn every(subject: &Subject<'_>, restrictions: &[usize], claims: &[usi
     let mut state = 0;
     'all: while state < states.len() {
         for (number, reading) in readings.iter().enumerate() {
-            if seen.scans == MAX_SCANS || seen.scans % 1024 == 0 && stop() {
-                seen.stopped = Some(match seen.scans {
-                    MAX_SCANS => format!("the limit of {MAX_SCANS} scans was reached"),
-                    _ => "the search was stopped".to_owned(),
-                });
+            if seen.scans == limit {
+                seen.stopped = Some(format!("the limit of {limit} scans was reached"));
+                break 'all;
+            }
+            if seen.scans.is_multiple_of(1024) && stop() {
+                seen.stopped = Some("the search was stopped".to_owned());
                 break 'all;
             }
             run.restore(&states[state]);

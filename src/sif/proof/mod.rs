@@ -19,10 +19,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::explore::ScanGates;
-use crate::flat::{FlatProgram, Tolerated};
 use crate::verdict::Verdict;
 
-use super::solver::Stop;
+use super::Stop;
 use every::{Seen, every};
 pub use run::{Failure, Given, Scan};
 use search::{Bounds, Finding, Goal, goals, search};
@@ -37,14 +36,16 @@ pub struct Options {
     pub scans: usize,
     /// Conflicts of the solver for one question, at most.
     pub conflicts: u64,
+    /// Scans that the interpreter computes where nothing else decides, at most; a sixteenth of them to confirm proofs.
+    pub tries: u64,
     /// Whether the work is to end.
     pub stop: Stop,
 }
 
 impl Default for Options {
-    /// Sixteen scans, a million conflicts, no end.
+    /// Sixteen scans, a million conflicts, a million tries, no end.
     fn default() -> Self {
-        Self { scans: 16, conflicts: 1_000_000, stop: std::sync::Arc::new(|| false) }
+        Self { scans: 16, conflicts: 1_000_000, tries: 1 << 20, stop: std::sync::Arc::new(|| false) }
     }
 }
 
@@ -151,26 +152,25 @@ pub fn prove(subject: &Subject<'_>, options: &Options) -> Proof {
         remarks: shown::remarks(subject),
         compared: 0,
     };
-    let gates = ScanGates::of(subject.program, subject.tolerated);
-    let interpreted = Interpreted::new(subject, options);
-    match gates {
-        Ok(gates) => by_gates(subject, &gates, &interpreted, options, &mut proof),
-        Err(no_gates) => by_interpreter(subject, &interpreted, &shown::no_gates(subject, no_gates), &mut proof),
+    match ScanGates::of(subject.program, subject.tolerated) {
+        Ok(gates) => by_gates(subject, &gates, options, &mut proof),
+        Err(no_gates) => by_interpreter(subject, &shown::no_gates(subject, no_gates), options, &mut proof),
     }
     proof
 }
 
-/// What the interpreter finds by trying everything, for each list of restrictions.
+/// What the interpreter finds by trying everything, for each list of restrictions that some goals have.
 struct Interpreted(BTreeMap<Vec<usize>, Option<Seen>>);
 
 impl Interpreted {
-    fn new(subject: &Subject<'_>, options: &Options) -> Self {
-        let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::from([(subject.everywhere.clone(), Vec::new())]);
-        for (position, claim) in subject.claims.iter().enumerate() {
-            groups.entry(claim.restrictions.clone()).or_default().push(position);
+    fn new(subject: &Subject<'_>, goals: &[Goal], tries: u64, options: &Options) -> Self {
+        let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
+        for goal in goals {
+            let claims = groups.entry(goal.restrictions(subject).to_vec()).or_default();
+            claims.extend(goal.claim());
         }
         let seen = |(restrictions, claims): (Vec<usize>, Vec<usize>)| {
-            let seen = every(subject, &restrictions, &claims, &options.stop);
+            let seen = every(subject, &restrictions, &claims, tries, &options.stop);
             (restrictions, seen)
         };
         Self(groups.into_iter().map(seen).collect())
@@ -182,33 +182,32 @@ impl Interpreted {
     }
 }
 
-fn by_gates(
-    subject: &Subject<'_>,
-    gates: &ScanGates,
-    interpreted: &Interpreted,
-    options: &Options,
-    proof: &mut Proof,
-) {
+fn by_gates(subject: &Subject<'_>, gates: &ScanGates, options: &Options, proof: &mut Proof) {
     let compared = sample::compare(subject, gates);
     let network = Network::new(subject, gates);
+    let goals = goals(&network);
     let bounds = Bounds { scans: options.scans, conflicts: options.conflicts, stop: options.stop.clone() };
     let findings = match &compared {
         Ok(_) => search(&network, &bounds),
-        Err(what) => vec![Finding::Open(disagreement(what)); goals(&network).len()],
+        Err(what) => vec![Finding::Open(disagreement(what)); goals.len()],
     };
-    proof.compared = compared.unwrap_or(0);
-    for (goal, finding) in goals(&network).into_iter().zip(findings) {
+    proof.compared = compared.as_ref().copied().unwrap_or(0);
+    let confirming = Interpreted::new(subject, &goals, options.tries / 16, options);
+    let open = goals.iter().zip(&findings).filter(|(_, finding)| compared.is_ok() && matches!(finding, Finding::Open(_)));
+    let open: Vec<Goal> = open.map(|(goal, _)| *goal).collect();
+    let deciding = Interpreted::new(subject, &open, options.tries, options);
+    for (goal, finding) in goals.into_iter().zip(findings) {
+        let restrictions = goal.restrictions(subject);
+        let seen = if open.contains(&goal) { deciding.of(restrictions) } else { confirming.of(restrictions) };
         match goal {
             Goal::Claim(position) => {
                 let claim = subject.claims[position].clone();
-                let seen = interpreted.of(&claim.restrictions);
                 let outcome = claimed(subject, gates, position, finding, seen);
                 proof.answers.push(Answer { claim, outcome });
             }
             Goal::Error(position) => {
                 let (_, line, hazard) = gates.errors[position];
                 let failure = Failure::Hazard(line, hazard);
-                let seen = interpreted.of(&subject.everywhere);
                 match failing(subject, failure, finding, seen) {
                     Outcome::Proved { .. } => {}
                     Outcome::Refuted(scans) => proof.failures.push((failure, scans)),
@@ -280,7 +279,10 @@ fn every_scan(complete: Option<&Seen>, reason: String) -> Outcome {
 }
 
 /// All that is known of a program without gates, for this reason.
-fn by_interpreter(subject: &Subject<'_>, interpreted: &Interpreted, reason: &str, proof: &mut Proof) {
+fn by_interpreter(subject: &Subject<'_>, reason: &str, options: &Options, proof: &mut Proof) {
+    let goals: Vec<Goal> = (0..subject.claims.len()).map(Goal::Claim).collect();
+    let interpreted = Interpreted::new(subject, &goals, options.tries, options);
+    let everywhere = every(subject, &subject.everywhere, &[], options.tries, &options.stop);
     let why = |seen: Option<&Seen>| match seen {
         None => format!("{reason}, and its inputs are too many to try all"),
         Some(seen) => match &seen.stopped {
@@ -299,7 +301,7 @@ fn by_interpreter(subject: &Subject<'_>, interpreted: &Interpreted, reason: &str
         };
         proof.answers.push(Answer { claim: claim.clone(), outcome });
     }
-    let seen = interpreted.of(&subject.everywhere);
+    let seen = everywhere.as_ref();
     for (&failure, given) in seen.iter().flat_map(|seen| &seen.failures) {
         match Shown::Failure(failure).replayed(subject, given) {
             Ok(scans) => proof.failures.push((failure, scans)),

@@ -93,7 +93,7 @@ impl<'s> Run<'s> {
             let is = |signal: SignalId| signals[signal.0];
             let kept = latched.as_ref().is_some_and(|reset| self.latches[id.0] && !reset.holds(is));
             wanted[id.0] = formula.holds(is) || kept;
-            self.latches[id.0] = wanted[id.0];
+            self.latches[id.0] = latched.is_some() && wanted[id.0];
             let made = subject.variables[id.0].filter(|_| subject.is_delayed(id));
             signals[id.0] = made.map_or(wanted[id.0], |variable| self.machine.value(variable) == 1);
         }

@@ -9,8 +9,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::run::Given;
+use super::subject::Subject;
 use super::unrolled::{Frame, Network};
-use crate::sif::solver::{Answer, Literal, Solver, Stop};
+use crate::sif::{Answer, Literal, Solver, Stop};
 
 /// Something that is never to be so at the end of a scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,24 @@ pub(super) enum Goal {
     Claim(usize),
     /// The scan meets the error at this position among those of the gates.
     Error(usize),
+}
+
+impl Goal {
+    /// The positions of the restrictions that its scans keep.
+    pub(super) fn restrictions<'s>(self, subject: &'s Subject<'_>) -> &'s [usize] {
+        match self {
+            Self::Claim(claim) => &subject.claims[claim].restrictions,
+            Self::Error(_) => &subject.everywhere,
+        }
+    }
+
+    /// The position of its claim.
+    pub(super) fn claim(self) -> Option<usize> {
+        match self {
+            Self::Claim(claim) => Some(claim),
+            Self::Error(_) => None,
+        }
+    }
 }
 
 /// What is known of a goal.
@@ -159,10 +178,7 @@ impl Search<'_> {
 
     /// The positions of the restrictions that a goal's scans keep.
     fn restrictions(&self, goal: usize) -> &[usize] {
-        match self.goals[goal] {
-            Goal::Claim(claim) => &self.network.subject.claims[claim].restrictions,
-            Goal::Error(_) => &self.network.subject.everywhere,
-        }
+        self.goals[goal].restrictions(self.network.subject)
     }
 
     /// That scans keep a goal's restrictions.

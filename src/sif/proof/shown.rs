@@ -8,6 +8,9 @@ use crate::flat::Hazard;
 use crate::semantics::Role;
 use crate::sif::Kind;
 
+/// The longest runs whose scans are simplified one by one.
+const MAX_SCANS: usize = 32;
+
 /// What a run shows in its last scan.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shown {
@@ -64,7 +67,9 @@ impl Shown {
         let first = inputs - subject.outside.len().min(inputs);
         rests.splice(first.., outside);
         let every = 0..given.len();
-        let choices = std::iter::once(every.clone()).chain(every.map(|scan| scan..scan + 1));
+        // Each is tried by a run as long as this one.
+        let each = if scans.len() <= MAX_SCANS { every.clone() } else { 0..0 };
+        let choices = std::iter::once(every).chain(each.map(|scan| scan..scan + 1));
         for (choice, input) in choices.flat_map(|choice| (0..inputs).map(move |input| (choice.clone(), input))) {
             let mut tried = given.clone();
             for given in &mut tried[choice] {

@@ -142,7 +142,12 @@ impl<'a> Subject<'a> {
         used.dedup();
         let mut needed = computed.seen;
         needed.union_with(&restricted.seen);
-        let definitions = in_order(specification, &needed);
+        let definitions = in_order(specification, &needed).map_err(|id| {
+            let signal = specification.signal(id);
+            let message = format!("whether `{}` is reset depends on what it is", signal.name);
+            let help = "let what resets it depend on inputs and on other outputs";
+            vec![(signal.place.file, Diagnostic::new(Code::SifCycle, signal.place.span, message).help(help))]
+        })?;
         Ok(Self { specification, program, tolerated, variables, claims, definitions, outside, restrictions: used, everywhere })
     }
 
@@ -207,8 +212,8 @@ fn uses(specification: &Specification, signal: SignalId) -> Vec<SignalId> {
     }
 }
 
-/// Those of the definitions that are needed, each behind those it uses, also to be reset.
-fn in_order(specification: &Specification, needed: &FixedBitSet) -> Vec<SignalId> {
+/// Those of the definitions that are needed, each behind those it uses, also to be reset; or one that is reset by way of itself.
+fn in_order(specification: &Specification, needed: &FixedBitSet) -> Result<Vec<SignalId>, SignalId> {
     let mut left: Vec<SignalId> = specification.order.iter().copied().filter(|id| needed.contains(id.0)).collect();
     let mut waiting = FixedBitSet::with_capacity(specification.signals.len());
     left.iter().for_each(|id| waiting.insert(id.0));
@@ -216,7 +221,7 @@ fn in_order(specification: &Specification, needed: &FixedBitSet) -> Vec<SignalId
     loop {
         let before = order.len();
         left.retain(|&id| {
-            let waits = uses(specification, id).iter().any(|used| *used != id && waiting.contains(used.0));
+            let waits = uses(specification, id).iter().any(|used| waiting.contains(used.0));
             if !waits {
                 waiting.set(id.0, false);
                 order.push(id);
@@ -224,9 +229,7 @@ fn in_order(specification: &Specification, needed: &FixedBitSet) -> Vec<SignalId
             waits
         });
         if order.len() == before {
-            // A reset by way of itself has been refused.
-            order.extend(left);
-            return order;
+            return left.first().map_or(Ok(order), |&first| Err(first));
         }
     }
 }

@@ -6,8 +6,7 @@ use super::run::Given;
 use super::subject::{Form, Subject};
 use crate::explore::{Gate, ScanGates, Wire};
 use crate::semantics::Role;
-use crate::sif::Kind;
-use crate::sif::solver::{Literal, Solver};
+use crate::sif::{Kind, Literal, Solver};
 
 /// What has to be known of the gates of a scan.
 pub(super) struct Network<'a> {
