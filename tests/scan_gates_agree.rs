@@ -27,7 +27,8 @@ fn words(mut seed: u64) -> impl FnMut() -> u64 {
 fn agree(program: &FlatProgram, gates: &ScanGates, tolerated: Tolerated, seed: u64) -> Result<usize, TestCaseError> {
     let mut next = words(seed);
     // A word that is mostly 0 or mostly 1 makes small numbers, and those near the ends.
-    let inputs: Vec<u64> = gates.inputs.iter().map(|_| [next(), next() & next() & next(), next() | next()][next() as usize % 3]).collect();
+    let inputs: Vec<u64> =
+        gates.inputs.iter().map(|_| [next(), next() & next() & next(), next() | next()][next() as usize % 3]).collect();
     let lanes = gates.evaluate(&inputs);
     let mut errors = 0;
     for scan in 0..64 {

@@ -42,7 +42,8 @@ fn function(output: &str, formal: &str) -> String {
 fn refuted(proof: &Proof) -> Vec<String> {
     let [answer] = proof.answers.as_slice() else { panic!("{proof:#?}") };
     let Outcome::Refuted(scans) = &answer.outcome else { panic!("{:#?}", answer.outcome) };
-    let inputs = |scan: &petril::sif::proof::Scan| scan.given.inputs.iter().map(|(_, value)| value.to_string()).collect();
+    let inputs =
+        |scan: &petril::sif::proof::Scan| scan.given.inputs.iter().map(|(_, value)| value.to_string()).collect();
     scans.iter().map(inputs).collect()
 }
 
@@ -91,7 +92,8 @@ fn mutants_of_the_seeds_function_are_refuted() {
             assert_eq!((to, scans.len()), ("S F1", 2));
             [scans[1].clone()]
         });
-        let [acc, tfa, tra, tst, tft, b, a] = scan.bytes().map(|bit| bit == b'1').collect::<Vec<_>>().try_into().unwrap();
+        let [acc, tfa, tra, tst, tft, b, a] =
+            scan.bytes().map(|bit| bit == b'1').collect::<Vec<_>>().try_into().unwrap();
         assert!(!(acc && (tfa || tra)) && !(tfa && tra) && !(!acc && (tst || tft)), "{to}: {scan}");
         let Outcome::Refuted(scans) = &proof.answers[0].outcome else { panic!() };
         let wanted = (acc || tfa || tra) && !tst && !tft && !b || !acc && !a;
@@ -107,8 +109,8 @@ fn restrictions_count() {
     let or = program("a, b, c", "y", "", "LD a\nOR b\nST y");
     let text = function("", "y = a xor b;");
     assert_eq!(refuted(&proof(&text, &or)), ["110"]);
-    proved(&proof(&text.replace("b;", "b; restriction R: at most one of a, b;"), &or));
-    let contradicting = text.replace("b;", "b; restriction R: never a; restriction S: always a;");
+    proved(&proof(&text.replace("xor b;", "xor b; restriction R: at most one of a, b;"), &or));
+    let contradicting = text.replace("xor b;", "xor b; restriction R: never a; restriction S: always a;");
     let proof = proof(&contradicting, &or);
     assert!(matches!(&proof.answers[0].outcome, Outcome::Unknown(why) if why.contains("contradict")), "{proof:?}");
 }
@@ -133,7 +135,8 @@ fn latches_are_proved_by_induction() {
     assert_eq!(proof_of_latch.answers[0].claim.form, Form::Latched);
     let every = Some(Confirmed::EveryScan { states: 2, scans: 16 });
     assert_eq!(proved(&proof_of_latch), (By::Induction(1), every));
-    let block = program("a, b, c", "y", "VAR f : SR; END_VAR", "LD a\nAND b\nST f.S1\nLD c\nST f.R\nCAL f\nLD f.Q1\nST y");
+    let block =
+        program("a, b, c", "y", "VAR f : SR; END_VAR", "LD a\nAND b\nST f.S1\nLD c\nST f.R\nCAL f\nLD f.Q1\nST y");
     assert!(matches!(proved(&proof(&text, &block)).0, By::Induction(_)));
     // What is reset first is not what is set first.
     let reset_first = "LD a\nAND b\nS y\nLD c\nR y";
@@ -151,7 +154,10 @@ fn latched_outputs_are_used_by_others() {
                 function G { interface { input b; input y; output z; } formal { z = y & b; } }";
     let right = program("a, b, c", "y, z", "", "LD y\nANDN c\nOR a\nST y\nAND b\nST z");
     let proof_of_both = proof(text, &right);
-    assert!(proof_of_both.answers.iter().all(|answer| matches!(answer.outcome, Outcome::Proved { .. })), "{proof_of_both:#?}");
+    assert!(
+        proof_of_both.answers.iter().all(|answer| matches!(answer.outcome, Outcome::Proved { .. })),
+        "{proof_of_both:#?}"
+    );
     // One scan late: the second output is computed of what the first one was.
     let late = program("a, b, c", "y, z", "", "LD y\nAND b\nST z\nLD y\nANDN c\nOR a\nST y");
     let late = proof(text, &late);
@@ -203,7 +209,8 @@ fn code_with_jumps_blocks_and_numbers_is_proved() {
     let text = function("", "y = (a & b) | (b & c) | (a & c);");
     let jumps = "LD a\nJMPC one\nLD b\nAND c\nST y\nRET\none: LD b\nJMPC two\nLD c\nST y\nRET\ntwo: LD TRUE\nST y";
     proved(&proof(&text, &program("a, b, c", "y", "", jumps)));
-    let sum = "LD a\nBOOL_TO_INT\nST n\nLD b\nBOOL_TO_INT\nADD n\nST n\nLD c\nBOOL_TO_INT\nADD n\nMUL 3\nDIV 2\nGE 3\nST y";
+    let sum =
+        "LD a\nBOOL_TO_INT\nST n\nLD b\nBOOL_TO_INT\nADD n\nST n\nLD c\nBOOL_TO_INT\nADD n\nMUL 3\nDIV 2\nGE 3\nST y";
     proved(&proof(&text, &program("a, b, c", "y", "VAR n : INT; END_VAR", sum)));
     let off_by_one = sum.replace("GE 3", "GE 4");
     assert_eq!(refuted(&proof(&text, &program("a, b, c", "y", "VAR n : INT; END_VAR", &off_by_one))).len(), 1);
@@ -260,7 +267,8 @@ fn names_are_variables_and_addresses() {
 /// What the program does not have is as restrictions need it; what the specification does not name has any value.
 #[test]
 fn what_only_one_of_both_has_is_free() {
-    let text = "restriction R: always a -> elsewhere; restriction S: always elsewhere -> b; input elsewhere;".to_owned()
+    let text = "restriction R: always a -> elsewhere; restriction S: always elsewhere -> b; input elsewhere;"
+        .to_owned()
         + &function("", "y = a & b;");
     let proof_of_load = proof(&text, &program("a, b, c, d", "y, other", "", "LD a\nST y\nLD d\nST other"));
     assert_eq!(proved(&proof_of_load).0, By::AnyState);

@@ -28,8 +28,8 @@ mod tarjan;
 mod walk;
 
 pub use asserted::{Seen, first_at_lines};
-pub use circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
 pub use budget::{Budget, Progress, Stop};
+pub use circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
 pub use components::{Components, components};
 pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;

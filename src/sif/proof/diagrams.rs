@@ -64,9 +64,13 @@ impl<'a> Opinion<'a> {
         let mut seen = FixedBitSet::with_capacity(gates.first_gate() + gates.gates.len());
         let mut left: Vec<usize> = gates.errors.iter().map(|(wire, ..)| wire.node()).collect();
         left.extend(subject.inputs().map(|(_, variable)| gates.beginning[variable.0][0].node()));
-        left.extend(subject.definitions.iter().filter(|id| subject.is_delayed(**id)).filter_map(|id| {
-            subject.variables[id.0].map(|variable| gates.end[variable.0][0].node())
-        }));
+        left.extend(
+            subject
+                .definitions
+                .iter()
+                .filter(|id| subject.is_delayed(**id))
+                .filter_map(|id| subject.variables[id.0].map(|variable| gates.end[variable.0][0].node())),
+        );
         left.push(gates.end[claim.variable.0][0].node());
         while let Some(node) = left.pop() {
             if node == 0 || seen.put(node) {

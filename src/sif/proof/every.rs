@@ -38,7 +38,8 @@ fn readings(subject: &Subject<'_>) -> Option<Vec<Given>> {
     };
     let domains: Vec<Vec<u64>> = inputs.iter().map(domain).collect::<Option<_>>()?;
     let count = domains.iter().try_fold(1_usize, |count, domain| count.checked_mul(domain.len()))?;
-    let count = count.checked_shl(u32::try_from(subject.outside.len()).ok()?).filter(|&count| count <= 1 << MAX_BITS)?;
+    let count =
+        count.checked_shl(u32::try_from(subject.outside.len()).ok()?).filter(|&count| count <= 1 << MAX_BITS)?;
     let reading = |mut number: usize| {
         let mut digit = |base: usize| {
             let digit = number % base;

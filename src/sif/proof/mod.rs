@@ -16,8 +16,6 @@ mod unrolled;
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
 use crate::explore::ScanGates;
 use crate::verdict::Verdict;
 
@@ -78,8 +76,7 @@ impl Outcome {
 }
 
 /// How a claim was proved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// For one scan, whatever it begins with, reachable or not.
     AnyState,
@@ -90,8 +87,7 @@ pub enum By {
 }
 
 /// How a proof was confirmed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmed {
     /// The interpreter computed every scan from every state.
     EveryScan {
@@ -156,6 +152,9 @@ pub fn prove(subject: &Subject<'_>, options: &Options) -> Proof {
         Ok(gates) => by_gates(subject, &gates, options, &mut proof),
         Err(no_gates) => by_interpreter(subject, &shown::no_gates(subject, no_gates), options, &mut proof),
     }
+    if !proof.failures.is_empty() || !proof.unknown_failures.is_empty() {
+        proof.assumptions.push("of scans that fail, and of what comes after them, nothing is claimed".to_owned());
+    }
     proof
 }
 
@@ -193,7 +192,8 @@ fn by_gates(subject: &Subject<'_>, gates: &ScanGates, options: &Options, proof: 
     };
     proof.compared = compared.as_ref().copied().unwrap_or(0);
     let confirming = Interpreted::new(subject, &goals, options.tries / 16, options);
-    let open = goals.iter().zip(&findings).filter(|(_, finding)| compared.is_ok() && matches!(finding, Finding::Open(_)));
+    let open =
+        goals.iter().zip(&findings).filter(|(_, finding)| compared.is_ok() && matches!(finding, Finding::Open(_)));
     let open: Vec<Goal> = open.map(|(goal, _)| *goal).collect();
     let deciding = Interpreted::new(subject, &open, options.tries, options);
     for (goal, finding) in goals.into_iter().zip(findings) {
@@ -241,7 +241,9 @@ fn claimed(
         Finding::AnyState => {
             let diagrams = || diagrams::holds(subject, gates, &subject.claims[position]);
             match by_every_scan.map_or_else(diagrams, |_| None) {
-                Some(false) => Outcome::Unknown(disagreement("decision diagrams differ where the solver finds nothing")),
+                Some(false) => {
+                    Outcome::Unknown(disagreement("decision diagrams differ where the solver finds nothing"))
+                }
                 Some(true) => Outcome::Proved { by: By::AnyState, confirmed: Some(Confirmed::Diagrams) },
                 None => Outcome::Proved { by: By::AnyState, confirmed: by_every_scan },
             }

@@ -30,7 +30,10 @@ pub(super) fn compare(subject: &Subject<'_>, gates: &ScanGates) -> Result<usize,
             }
         }
         let word = |&(variable, bit): &(VarId, u32)| {
-            machines.iter().enumerate().fold(0, |word, (run, machine)| word | (machine.value(variable) >> bit & 1) << run)
+            machines
+                .iter()
+                .enumerate()
+                .fold(0, |word, (run, machine)| word | (machine.value(variable) >> bit & 1) << run)
         };
         let inputs: Vec<u64> = gates.inputs.iter().map(word).collect();
         let lanes = gates.evaluate(&inputs);

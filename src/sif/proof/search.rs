@@ -76,7 +76,8 @@ pub(super) fn search(network: &Network<'_>, bounds: &Bounds) -> Vec<Finding> {
     let stop = {
         let (left, stop) = (left.clone(), bounds.stop.clone());
         // The solver asks once for each conflict.
-        let none_left = move || left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err();
+        let none_left =
+            move || left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err();
         Arc::new(move || none_left() || stop()) as Stop
     };
     let mut search = Search {
@@ -254,7 +255,8 @@ impl Search<'_> {
 
     /// Proves what no scan makes wrong after so many in which everything that is still thought right was right.
     fn induction(&mut self, scans: usize) {
-        let right = |finding: &Option<Finding>| matches!(finding, None | Some(Finding::AnyState | Finding::Induction(_)));
+        let right =
+            |finding: &Option<Finding>| matches!(finding, None | Some(Finding::AnyState | Finding::Induction(_)));
         let mut thought: Vec<usize> = (0..self.goals.len()).filter(|&goal| right(&self.findings[goal])).collect();
         loop {
             let count = thought.len();

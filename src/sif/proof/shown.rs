@@ -96,7 +96,8 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
     let mut assumptions = Vec::new();
     for &position in &subject.restrictions {
         let restriction = &specification.restrictions[position];
-        let of = if subject.everywhere.contains(&position) { "in every scan" } else { "for its functions, in every scan" };
+        let of =
+            if subject.everywhere.contains(&position) { "in every scan" } else { "for its functions, in every scan" };
         assumptions.push(format!("{of}, {}: {}", restriction.name, restriction.text));
     }
     let bound: Vec<_> = subject.inputs().map(|(_, variable)| variable).collect();
@@ -110,7 +111,8 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
     }
     if !subject.outside.is_empty() {
         let names: Vec<&str> = subject.outside.iter().map(|&id| specification.name(id)).collect();
-        assumptions.push(format!("inputs that the program does not have are as restrictions need them: {}", few(&names)));
+        assumptions
+            .push(format!("inputs that the program does not have are as restrictions need them: {}", few(&names)));
     }
     let delayed = subject.definitions.iter().filter(|id| subject.is_delayed(**id));
     let delayed: Vec<&str> = delayed.map(|&id| specification.name(id)).collect();
@@ -151,8 +153,8 @@ pub(super) fn remarks(subject: &Subject<'_>) -> Vec<String> {
         if let Kind::Defined { delayed: Some(delay), .. } = specification.signal(claim.signal).kind {
             let name = specification.name(claim.signal);
             remarks.push(format!(
-                "of `{name}` it is proved only that it is never TRUE without its formula; that it comes, and after {delay} ms, is \
-                 not proved"
+                "of `{name}` nothing is claimed but that it is never TRUE without its formula; that it comes after {delay} ms is \
+                 not proved: `petril sif requirements` says it for `petril check`"
             ));
         }
     }

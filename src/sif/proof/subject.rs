@@ -101,7 +101,8 @@ impl<'a> Subject<'a> {
                 wanted.push((output, own.clone()));
             }
         }
-        let mut binder = Binder { specification, program, signals: vec![None; program.variables.len()], found: Vec::new() };
+        let mut binder =
+            Binder { specification, program, signals: vec![None; program.variables.len()], found: Vec::new() };
         let mut variables = vec![None; specification.signals.len()];
         let mut outside = Vec::new();
         for id in (0..specification.signals.len()).map(SignalId) {
@@ -148,7 +149,17 @@ impl<'a> Subject<'a> {
             let help = "let what resets it depend on inputs and on other outputs";
             vec![(signal.place.file, Diagnostic::new(Code::SifCycle, signal.place.span, message).help(help))]
         })?;
-        Ok(Self { specification, program, tolerated, variables, claims, definitions, outside, restrictions: used, everywhere })
+        Ok(Self {
+            specification,
+            program,
+            tolerated,
+            variables,
+            claims,
+            definitions,
+            outside,
+            restrictions: used,
+            everywhere,
+        })
     }
 
     /// Whether a signal is remembered from scan to scan.
@@ -164,6 +175,15 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn is_delayed(&self, signal: SignalId) -> bool {
         matches!(self.specification.signals[signal.0].kind, Kind::Defined { delayed: Some(_), .. })
+    }
+
+    /// The inputs that a signal is computed from, also to be reset, in their order.
+    #[must_use]
+    pub fn inputs_of(&self, signal: SignalId) -> Vec<SignalId> {
+        let mut inside = Inside::new(self.specification);
+        inside.add(signal);
+        let inputs = inside.seen.ones().map(SignalId);
+        inputs.filter(|id| matches!(self.specification.signals[id.0].kind, Kind::Input { .. })).collect()
     }
 
     /// The input signals that stand for variables of the program.
