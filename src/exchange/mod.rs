@@ -18,6 +18,7 @@ pub mod junit;
 pub mod lola;
 pub mod mcc;
 pub mod pnml;
+pub mod proof;
 pub mod recorded;
 pub mod report_csv;
 pub mod sarif;

@@ -29,6 +29,7 @@ mod walk;
 
 pub use asserted::{Seen, first_at_lines};
 pub use budget::{Budget, Progress, Stop};
+pub use circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
 pub use components::{Components, components};
 pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;

@@ -20,6 +20,7 @@ mod diagram;
 mod formula;
 mod parse;
 mod plan;
+pub mod proof;
 mod requirements;
 mod resolve;
 pub mod sanity;

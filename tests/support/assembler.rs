@@ -27,6 +27,7 @@ pub fn assemble(declarations: &str, code: &str) -> FlatProgram {
         cycle: 20,
         presets_vary: false,
         restrictions: Default::default(),
+        addresses: Default::default(),
     }
 }
 
@@ -100,7 +101,7 @@ impl Assembler<'_> {
 }
 
 fn function(word: &str) -> Function {
-    use Function::{Add, And, Div, Eq, Ge, Gt, Le, Lt, Mod, Mul, Ne, Or, Shl, Shr, Sub, Xor};
-    let all = [And, Or, Xor, Add, Sub, Mul, Div, Mod, Gt, Ge, Eq, Ne, Le, Lt, Shl, Shr];
+    use Function::{Add, And, Div, Eq, Ge, Gt, Le, Lt, Mod, Mul, Ne, Or, Rol, Ror, Shl, Shr, Sub, Xor};
+    let all = [And, Or, Xor, Add, Sub, Mul, Div, Mod, Gt, Ge, Eq, Ne, Le, Lt, Shl, Shr, Rol, Ror];
     all.into_iter().find(|function| function.word() == word).unwrap_or_else(|| panic!("no operator {word}"))
 }

@@ -4,11 +4,15 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
+use crate::cli::meaning::Meaning;
+
 /// The verbs on safety functions.
 #[derive(Debug, Subcommand)]
 pub enum SifVerb {
     /// Check that a specification makes sense: restrictions, unused inputs, functions that never change.
     Check(SifCheck),
+    /// Prove that a program computes what is specified, or show the scans in which it does not.
+    Prove(SifProve),
     /// Write a specification as requirements, for `petril check`.
     Requirements(SifRequirements),
 }
@@ -18,6 +22,7 @@ impl SifVerb {
     pub fn wants_json(&self) -> bool {
         match self {
             Self::Check(arguments) => arguments.json,
+            Self::Prove(arguments) => arguments.json,
             Self::Requirements(_) => false,
         }
     }
@@ -53,4 +58,41 @@ pub struct SifRequirements {
     /// Where to write; standard output if not given.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+}
+
+/// `petril sif prove`
+///
+/// Each output at the end of every scan is its formula over the inputs of that scan, as long as these keep the restrictions. What differs is
+/// shown as a run from power-on, which the interpreter has replayed. Of delayed outputs it is proved that they never come without their
+/// formula, not that they come in time: for that, see `petril sif requirements`.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Exit codes: 0 everything is proved, 1 something is refuted, 2 the files cannot be used, 3 something is unknown.
+
+Example:
+  petril sif prove examples/beam-interlock.sif examples/beam-interlock.il")]
+pub struct SifProve {
+    /// The specification, in one file or several, and last the program: Instruction List, or a PLCopen project in XML.
+    #[arg(value_name = "FILE", required = true, num_args = 2..)]
+    pub files: Vec<PathBuf>,
+    /// Prove only the outputs of this function.
+    #[arg(short, long, value_name = "NAME")]
+    pub function: Vec<String>,
+    /// What the program means on the PLC it runs on.
+    #[command(flatten)]
+    pub meaning: Meaning,
+    /// How many scans runs and inductions may have.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub scans: u16,
+    /// Give up after this many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub timeout: Option<std::time::Duration>,
+    /// Print one JSON document.
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn seconds(text: &str) -> Result<std::time::Duration, String> {
+    let number = text.parse().map_err(|_| format!("`{text}` is no number of seconds"))?;
+    std::time::Duration::try_from_secs_f64(number).map_err(|error| error.to_string())
 }

@@ -2,6 +2,7 @@
 
 pub mod args;
 mod check;
+mod prove;
 mod requirements;
 
 use std::path::{Path, PathBuf};
@@ -18,6 +19,7 @@ use args::SifVerb;
 pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
     match verb {
         SifVerb::Check(arguments) => check::run(arguments, console),
+        SifVerb::Prove(arguments) => prove::run(arguments, console),
         SifVerb::Requirements(arguments) => requirements::run(arguments, console),
     }
 }

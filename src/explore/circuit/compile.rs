@@ -1,13 +1,14 @@
 //! A scan as gates: flat code is executed once, with wires instead of bits.
 //!
 //! Where control divides, each part knows when it is the one that is executed; where parts meet again, what they disagree on
-//! is chosen by that. A program whose control goes back, or that multiplies, divides, or shifts by what it computes, is left
-//! to the interpreter, and so is one that would take too many gates.
+//! is chosen by that. A program whose control goes back is left to the interpreter, and so is one that would take too many gates;
+//! whoever computes with the gates also leaves it those that multiply, divide, or shift by what they compute.
 
 use std::collections::BTreeMap;
 
 use super::gates::{Network, Wire};
 use super::numbers::{self, complement, constant, resized};
+use super::products;
 use crate::flat::{Condition, Element, FlatProgram, Function, Hazard, Instruction, Operand, Target, Tolerated};
 use crate::semantics::{Type, VarId};
 
@@ -22,35 +23,76 @@ pub(super) struct Compiled {
     pub(super) lines: Vec<(usize, Wire)>,
 }
 
-/// Gates for each line, at most: the interpreter takes about as long for a line as 256 lanes take for so many gates.
-const GATES_PER_LINE: usize = 100;
+/// How large a network may be, and what it may be made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Gates, at most.
+    gates: usize,
+    /// Whether products, quotients, and shifts by what is computed are made. They take thousands of gates for one instruction.
+    products: bool,
+}
 
-/// Gates a network may have in any case, and must not exceed.
-const GATES: std::ops::Range<usize> = 1000..1 << 18;
+impl Limits {
+    /// For gates that compute scans: the interpreter takes about as long for a line as 256 lanes take for a hundred gates.
+    pub(super) fn for_lanes(program: &FlatProgram) -> Self {
+        Self { gates: (program.end() * 100).clamp(1000, 1 << 18), products: false }
+    }
 
-/// Compiles a scan; `inputs` says which bits of each variable are inputs of the network. Nothing if gates do not serve.
-pub(super) fn compile(program: &FlatProgram, tolerated: Tolerated, inputs: &[Vec<usize>]) -> Option<Compiled> {
-    let network = Network::new(inputs.iter().map(Vec::len).sum());
+    /// For gates that are reasoned about.
+    pub(super) const FOR_PROOFS: Self = Self { gates: 1 << 22, products: true };
+}
+
+/// Bits of an array that is indexed, at most.
+const ARRAY_BITS: usize = 1 << 15;
+
+/// Why gates do not serve, with the line (from 0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoGates {
+    /// Control goes back there, so the scan may have any length.
+    Back(usize),
+    /// What is computed there is left to the interpreter.
+    Instruction(usize),
+    /// There are too many by then.
+    TooMany(usize),
+}
+
+impl NoGates {
+    /// The line.
+    #[must_use]
+    pub fn line(self) -> usize {
+        let (Self::Back(line) | Self::Instruction(line) | Self::TooMany(line)) = self;
+        line
+    }
+}
+
+/// Compiles a scan that begins with these bits of each variable, wires of a network with so many inputs.
+pub(super) fn compile(
+    program: &FlatProgram,
+    tolerated: Tolerated,
+    inputs: usize,
+    beginning: &[Vec<Wire>],
+    limits: Limits,
+) -> Result<Compiled, NoGates> {
+    let network = Network::new(inputs);
     let mut memory = Vec::new();
     let mut starts = vec![0];
-    for (variable, inputs) in program.variables.iter().zip(inputs) {
-        memory.extend(resized(
-            &inputs.iter().map(|&number| network.input(number)).collect::<Vec<_>>(),
-            variable.ty.width as usize,
-        ));
+    for (variable, bits) in program.variables.iter().zip(beginning) {
+        memory.extend(resized(bits, variable.ty.width as usize));
         starts.push(memory.len());
     }
-    let mut compiler = Compiler { program, tolerated, network, starts, errors: Vec::new(), lines: Vec::new() };
+    let mut compiler = Compiler { program, tolerated, limits, network, starts, errors: Vec::new(), lines: Vec::new() };
     let start = Flow { active: Wire::TRUE, result: Vec::new(), memory };
-    let end = compiler.run(start)?;
+    // Without a way to the end, every scan meets an error.
+    let end = compiler.run(start.clone())?.unwrap_or(start);
     let Compiler { network, starts, errors, lines, .. } = compiler;
     let memory = starts.windows(2).map(|range| end.memory[range[0]..range[1]].to_vec()).collect();
-    Some(Compiled { network, memory, errors, lines })
+    Ok(Compiled { network, memory, errors, lines })
 }
 
 struct Compiler<'p> {
     program: &'p FlatProgram,
     tolerated: Tolerated,
+    limits: Limits,
     network: Network,
     /// Where the bits of each variable begin.
     starts: Vec<usize>,
@@ -68,10 +110,9 @@ struct Flow {
 }
 
 impl Compiler<'_> {
-    /// What is known at the end.
-    fn run(&mut self, start: Flow) -> Option<Flow> {
+    /// What is known at the end, if control comes there.
+    fn run(&mut self, start: Flow) -> Result<Option<Flow>, NoGates> {
         let end = self.program.end();
-        let most = (end * GATES_PER_LINE).clamp(GATES.start, GATES.end);
         // What comes to a line by jumps.
         let mut arriving: BTreeMap<usize, Flow> = BTreeMap::new();
         let mut flow = Some(start);
@@ -81,7 +122,7 @@ impl Compiler<'_> {
             let Some(now) = &mut flow else { continue };
             if let Instruction::Jump { condition, target } = self.program.code[line].instruction {
                 if target <= line {
-                    return None;
+                    return Err(NoGates::Back(line));
                 }
                 let jumps = match condition {
                     Condition::Always => Wire::TRUE,
@@ -101,13 +142,13 @@ impl Compiler<'_> {
             } else {
                 self.execute(line, now)?;
             }
-            if self.network.gates().len() > most {
-                return None;
+            if self.network.gates().len() > self.limits.gates {
+                return Err(NoGates::TooMany(line));
             }
         }
         flow = self.joined(flow, arriving.remove(&end));
         self.note(end, flow.as_ref());
-        flow
+        Ok(flow)
     }
 
     /// Notes when control comes to a line.
@@ -136,22 +177,22 @@ impl Compiler<'_> {
     }
 
     /// Executes an instruction that is no jump.
-    fn execute(&mut self, line: usize, flow: &mut Flow) -> Option<()> {
+    fn execute(&mut self, line: usize, flow: &mut Flow) -> Result<(), NoGates> {
         match self.program.code[line].instruction {
             Instruction::Load { ty, negated, operand } => {
-                flow.result = complement(&self.operand(flow, operand, ty)?, negated);
+                flow.result = complement(&self.operand(line, flow, operand, ty)?, negated);
             }
             Instruction::Store { ty, negated, target } => {
                 let value = complement(&resized(&flow.result, ty.width as usize), negated);
-                self.write(flow, target, &mut |_, old| resized(&value, old.len()))?;
+                self.write(line, flow, target, &mut |_, old| resized(&value, old.len()))?;
             }
             Instruction::Set(target) => {
                 let set = resized(&flow.result, 1)[0];
-                self.write(flow, target, &mut |network, old| vec![network.or(old[0], set)])?;
+                self.write(line, flow, target, &mut |network, old| vec![network.or(old[0], set)])?;
             }
             Instruction::Reset(target) => {
                 let reset = resized(&flow.result, 1)[0];
-                self.write(flow, target, &mut |network, old| vec![network.and(old[0], !reset)])?;
+                self.write(line, flow, target, &mut |network, old| vec![network.and(old[0], !reset)])?;
             }
             Instruction::Complement(ty) => {
                 flow.result = complement(&resized(&flow.result, ty.width as usize), true);
@@ -173,9 +214,9 @@ impl Compiler<'_> {
                 }
                 self.meet(flow, !inside, line, hazard);
             }
-            Instruction::Jump { .. } => return None,
+            Instruction::Jump { .. } => return Err(NoGates::Instruction(line)),
         }
-        Some(())
+        Ok(())
     }
 
     fn combine(
@@ -186,14 +227,24 @@ impl Compiler<'_> {
         ty: Type,
         negated: bool,
         operand: Operand,
-    ) -> Option<()> {
+    ) -> Result<(), NoGates> {
         let a = resized(&flow.result, ty.width as usize);
+        let unfit = NoGates::Instruction(line);
         if matches!(function, Function::Shl | Function::Shr | Function::Rol | Function::Ror) {
-            let Operand::Constant(distance) = operand else { return None };
-            flow.result = numbers::shift(function, &a, if negated { !distance & ty.mask() } else { distance })?;
-            return Some(());
+            flow.result = match operand {
+                Operand::Constant(distance) => {
+                    numbers::shift(function, &a, if negated { !distance & ty.mask() } else { distance }).ok_or(unfit)?
+                }
+                Operand::Place(_) if self.limits.products => {
+                    let width = if negated { ty.width as usize } else { u64::BITS as usize };
+                    let distance = complement(&resized(&self.place(line, flow, operand)?, width), negated);
+                    products::shift(&mut self.network, function, &a, &distance)
+                }
+                Operand::Place(_) => return Err(unfit),
+            };
+            return Ok(());
         }
-        let b = complement(&self.operand(flow, operand, ty)?, negated);
+        let b = complement(&self.operand(line, flow, operand, ty)?, negated);
         let network = &mut self.network;
         let mut each = |gate: fn(&mut Network, Wire, Wire) -> Wire| -> Vec<Wire> {
             a.iter().zip(&b).map(|(&a, &b)| gate(network, a, b)).collect()
@@ -207,9 +258,25 @@ impl Compiler<'_> {
                 self.meet(flow, overflow, line, Hazard::Overflow);
                 sum
             }
-            _ => vec![numbers::compare(network, function, ty, &a, &b)?],
+            Function::Mul if self.limits.products => {
+                let (product, overflow) = products::product(network, ty, &a, &b);
+                self.meet(flow, overflow, line, Hazard::Overflow);
+                product
+            }
+            Function::Div | Function::Mod if self.limits.products => {
+                let by_zero = !network.any(b.iter().copied());
+                let divided = products::quotient(network, ty, &a, &b);
+                let (number, overflow) = match function {
+                    Function::Div => (divided.quotient, divided.overflow),
+                    _ => (divided.remainder, Wire::FALSE),
+                };
+                self.meet(flow, by_zero, line, Hazard::DivisionByZero);
+                self.meet(flow, overflow, line, Hazard::Overflow);
+                number
+            }
+            _ => vec![numbers::compare(network, function, ty, &a, &b).ok_or(unfit)?],
         };
-        Some(())
+        Ok(())
     }
 
     /// Control goes on only where there is no error.
@@ -227,13 +294,22 @@ impl Compiler<'_> {
         self.starts[variable.0]..self.starts[variable.0 + 1]
     }
 
-    fn operand(&mut self, flow: &Flow, operand: Operand, ty: Type) -> Option<Vec<Wire>> {
+    fn operand(&mut self, line: usize, flow: &Flow, operand: Operand, ty: Type) -> Result<Vec<Wire>, NoGates> {
         let width = ty.width as usize;
-        Some(match operand {
-            Operand::Constant(pattern) => constant(pattern, width),
-            Operand::Place(Target::Variable(variable)) => resized(&flow.memory[self.range(variable)], width),
+        match operand {
+            Operand::Constant(pattern) => Ok(constant(pattern, width)),
+            Operand::Place(_) => Ok(resized(&self.place(line, flow, operand)?, width)),
+        }
+    }
+
+    /// All bits of an operand.
+    fn place(&mut self, line: usize, flow: &Flow, operand: Operand) -> Result<Vec<Wire>, NoGates> {
+        Ok(match operand {
+            Operand::Constant(pattern) => constant(pattern, u64::BITS as usize),
+            Operand::Place(Target::Variable(variable)) => flow.memory[self.range(variable)].to_vec(),
             Operand::Place(Target::Element(element)) => {
-                let hits = self.hits(flow, element)?;
+                let width = self.range(element.first).len();
+                let hits = self.hits(line, flow, element)?;
                 let mut value = vec![Wire::FALSE; width];
                 for (variable, hit) in hits {
                     let bits = resized(&flow.memory[self.range(variable)], width);
@@ -246,13 +322,14 @@ impl Compiler<'_> {
 
     fn write(
         &mut self,
+        line: usize,
         flow: &mut Flow,
         target: Target,
         new: &mut dyn FnMut(&mut Network, &[Wire]) -> Vec<Wire>,
-    ) -> Option<()> {
+    ) -> Result<(), NoGates> {
         let hits = match target {
             Target::Variable(variable) => vec![(variable, Wire::TRUE)],
-            Target::Element(element) => self.hits(flow, element)?,
+            Target::Element(element) => self.hits(line, flow, element)?,
         };
         for (variable, hit) in hits {
             let range = self.range(variable);
@@ -261,14 +338,14 @@ impl Compiler<'_> {
             let bits = self.chosen(hit, &new, &old);
             flow.memory[range].copy_from_slice(&bits);
         }
-        Some(())
+        Ok(())
     }
 
     /// The elements of an array, each with when it is meant. An index is always one of the array.
-    fn hits(&mut self, flow: &Flow, element: Element) -> Option<Vec<(VarId, Wire)>> {
+    fn hits(&mut self, line: usize, flow: &Flow, element: Element) -> Result<Vec<(VarId, Wire)>, NoGates> {
         let width = self.program.variable(element.first).ty.width as usize;
-        if element.length * width > GATES.end / 8 {
-            return None;
+        if element.length * width > ARRAY_BITS {
+            return Err(NoGates::TooMany(line));
         }
         let bits = (usize::BITS - (element.length.saturating_sub(1)).leading_zeros()) as usize;
         let index = resized(&flow.memory[self.range(element.index)], bits);
@@ -276,6 +353,6 @@ impl Compiler<'_> {
             let same = numbers::equal(&mut self.network, &index, &constant(at as u64, bits));
             (element.at(at), same)
         };
-        Some((0..element.length).map(hit).collect())
+        Ok((0..element.length).map(hit).collect())
     }
 }

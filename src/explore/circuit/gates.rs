@@ -4,22 +4,32 @@ use rustc_hash::FxHashMap;
 
 /// What a node gives, or its complement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct Wire(u32);
+pub struct Wire(u32);
 
 impl Wire {
-    /// The complement of node 0, and node 0.
-    pub(super) const TRUE: Self = Self(1);
-    pub(super) const FALSE: Self = Self(0);
+    /// The complement of node 0.
+    pub const TRUE: Self = Self(1);
+    /// Node 0.
+    pub const FALSE: Self = Self(0);
+
+    /// An input of a network, from 0.
+    pub(super) fn input(number: usize) -> Self {
+        Self((number as u32 + 1) << 1)
+    }
 
     pub(super) fn constant(value: bool) -> Self {
         Self(value.into())
     }
 
-    pub(super) fn node(self) -> usize {
+    /// The node it comes from.
+    #[must_use]
+    pub fn node(self) -> usize {
         (self.0 >> 1) as usize
     }
 
-    pub(super) fn is_complement(self) -> bool {
+    /// Whether it gives the complement of its node.
+    #[must_use]
+    pub fn is_complement(self) -> bool {
         self.0 & 1 == 1
     }
 
@@ -39,8 +49,10 @@ impl std::ops::Not for Wire {
 
 /// A gate. The wires of an exclusive or are no complements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Gate {
+pub enum Gate {
+    /// Whether both are TRUE.
     And(Wire, Wire),
+    /// Whether one of both is TRUE.
     Xor(Wire, Wire),
 }
 
@@ -58,11 +70,6 @@ impl Network {
 
     pub(super) fn gates(&self) -> &[Gate] {
         &self.gates
-    }
-
-    pub(super) fn input(&self, number: usize) -> Wire {
-        debug_assert!(number < self.inputs);
-        Wire((number as u32 + 1) << 1)
     }
 
     fn gate(&mut self, gate: Gate) -> Wire {

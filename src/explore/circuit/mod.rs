@@ -6,7 +6,13 @@
 mod compile;
 mod gates;
 mod numbers;
+mod products;
+mod scan_gates;
 mod transpose;
+
+pub use compile::NoGates;
+pub use gates::{Gate, Wire};
+pub use scan_gates::{Lanes, ScanGates};
 
 use std::ops::Range;
 
@@ -16,7 +22,7 @@ use super::layout::Field;
 use super::space::Failure;
 use crate::flat::{FlatProgram, Hazard, Tolerated};
 use crate::semantics::VarId;
-use gates::{Gate, Wire};
+use compile::{Limits, compile};
 use transpose::transpose;
 
 /// A scan of packed states.
@@ -54,13 +60,12 @@ impl Circuit {
         fields: &[(VarId, Field)],
         words: usize,
     ) -> Option<Self> {
-        let (inputs, numbers) = inputs(program, fields);
-        let compiled = compile::compile(program, tolerated, &numbers)?;
-        let own = |number: &usize| compiled.network.input(*number);
+        let (inputs, own) = inputs(program, fields);
+        let compiled = compile(program, tolerated, inputs.len(), &own, Limits::for_lanes(program)).ok()?;
         let mut outputs = Vec::new();
         for &(variable, field) in fields {
-            let bits = field.positions().zip(&compiled.memory[variable.0]).zip(&numbers[variable.0]);
-            let changed = bits.filter(|((_, wire), number)| **wire != own(number));
+            let bits = field.positions().zip(&compiled.memory[variable.0]).zip(&own[variable.0]);
+            let changed = bits.filter(|((_, wire), own)| wire != own);
             outputs.extend(changed.map(|(((word, bit), &wire), _)| (word, bit, wire)));
         }
         let (gates, errors) = (compiled.network.gates().to_vec(), compiled.errors);
@@ -74,8 +79,8 @@ impl Circuit {
         fields: &[(VarId, Field)],
         words: usize,
     ) -> Option<Self> {
-        let (inputs, numbers) = inputs(program, fields);
-        let compiled = compile::compile(program, tolerated, &numbers)?;
+        let (inputs, own) = inputs(program, fields);
+        let compiled = compile(program, tolerated, inputs.len(), &own, Limits::for_lanes(program)).ok()?;
         let ends = compiled.lines.iter().skip(1).map(|(line, _)| *line).chain([program.end() + 1]);
         let lines = compiled.lines.iter().zip(ends).map(|(&(line, wire), end)| (wire, line..end)).collect();
         let (gates, outputs, errors) = (compiled.network.gates().to_vec(), Vec::new(), Vec::new());
@@ -211,17 +216,17 @@ impl Circuit {
     }
 }
 
-/// Where the bits of all fields are, and for each variable which of them are its own.
-fn inputs(program: &FlatProgram, fields: &[(VarId, Field)]) -> (Vec<(usize, u32)>, Vec<Vec<usize>>) {
+/// Where the bits of all fields are, and for each variable the wires of its own.
+fn inputs(program: &FlatProgram, fields: &[(VarId, Field)]) -> (Vec<(usize, u32)>, Vec<Vec<Wire>>) {
     let mut inputs = Vec::new();
-    let mut numbers = vec![Vec::new(); program.variables.len()];
+    let mut own = vec![Vec::new(); program.variables.len()];
     for &(variable, field) in fields {
         for position in field.positions() {
-            numbers[variable.0].push(inputs.len());
+            own[variable.0].push(Wire::input(inputs.len()));
             inputs.push(position);
         }
     }
-    (inputs, numbers)
+    (inputs, own)
 }
 
 /// What a wire gives.

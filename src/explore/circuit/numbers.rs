@@ -20,7 +20,7 @@ pub(super) fn complement(bits: &[Wire], negated: bool) -> Vec<Wire> {
 }
 
 /// A sum and a carry: the sum, what is carried into its last bit, and what out of it.
-fn add(network: &mut Network, a: &[Wire], b: &[Wire], mut carry: Wire) -> (Vec<Wire>, Wire, Wire) {
+pub(super) fn add(network: &mut Network, a: &[Wire], b: &[Wire], mut carry: Wire) -> (Vec<Wire>, Wire, Wire) {
     let mut into = carry;
     let mut sum = Vec::with_capacity(a.len());
     for (&a, &b) in a.iter().zip(b) {

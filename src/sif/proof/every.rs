@@ -1,0 +1,126 @@
+//! Every scan there is, by the interpreter: for programs without gates, and to confirm what was found with them where inputs are few.
+
+use std::collections::{BTreeMap, HashSet};
+
+use super::run::{Failure, Given, Run};
+use super::subject::Subject;
+use crate::semantics::Role;
+use crate::sif::Stop;
+
+/// Bits of inputs, at most.
+const MAX_BITS: u32 = 16;
+
+/// What all scans show that keep some restrictions.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Seen {
+    /// For each claim that was looked at and is wrong in some scan, a shortest run there.
+    pub(super) wrong: BTreeMap<usize, Vec<Given>>,
+    /// For each way in which scans fail, a shortest run there.
+    pub(super) failures: BTreeMap<Failure, Vec<Given>>,
+    /// States, power-on included.
+    pub(super) states: u64,
+    /// Scans computed.
+    pub(super) scans: u64,
+    /// Of these, scans that keep the restrictions and do not fail.
+    pub(super) ended: u64,
+    /// Whether every scan from every state was computed; else why not.
+    pub(super) stopped: Option<String>,
+}
+
+/// What scans can read, one after another. Nothing if that is too much.
+fn readings(subject: &Subject<'_>) -> Option<Vec<Given>> {
+    let program = subject.program;
+    let inputs: Vec<_> = program.with_role(Role::Input).collect();
+    let domain = |&input: &_| {
+        let (least, greatest) = program.range(input);
+        let ty = program.variable(input).ty;
+        (greatest - least < 1 << MAX_BITS).then(|| (least..=greatest).map(|number| ty.pattern(number)).collect())
+    };
+    let domains: Vec<Vec<u64>> = inputs.iter().map(domain).collect::<Option<_>>()?;
+    let count = domains.iter().try_fold(1_usize, |count, domain| count.checked_mul(domain.len()))?;
+    let count =
+        count.checked_shl(u32::try_from(subject.outside.len()).ok()?).filter(|&count| count <= 1 << MAX_BITS)?;
+    let reading = |mut number: usize| {
+        let mut digit = |base: usize| {
+            let digit = number % base;
+            number /= base;
+            digit
+        };
+        let outside = subject.outside.iter().map(|&id| (id, digit(2) == 1)).collect();
+        let mut inputs: Vec<_> =
+            inputs.iter().zip(&domains).rev().map(|(&input, domain)| (input, domain[digit(domain.len())])).collect();
+        inputs.reverse();
+        Given { inputs, outside }
+    };
+    (subject.outside.len() <= MAX_BITS as usize).then(|| (0..count).map(reading).collect())
+}
+
+/// Explores all states by scans that keep these restrictions, up to so many scans, and looks at these claims. Nothing if inputs
+/// are too many.
+pub(super) fn every(
+    subject: &Subject<'_>,
+    restrictions: &[usize],
+    claims: &[usize],
+    limit: u64,
+    stop: &Stop,
+) -> Option<Seen> {
+    let readings = readings(subject)?;
+    let carried = subject.program.carried();
+    let key = |(memory, latches): &(Vec<u64>, Vec<bool>)| -> Vec<u64> {
+        let kept = carried.ones().map(|at| memory[at]);
+        kept.chain(latches.iter().map(|&latch| u64::from(latch))).collect()
+    };
+    let mut seen = Seen::default();
+    let mut run = Run::new(subject);
+    let mut states = vec![run.position()];
+    // For each state, the state before it and what the scan between read.
+    let mut ways: Vec<Option<(usize, usize)>> = vec![None];
+    let mut known = HashSet::from([key(&states[0])]);
+    let way = |ways: &[Option<(usize, usize)>], mut state: usize, reading: usize| -> Vec<Given> {
+        let mut given = vec![readings[reading].clone()];
+        while let Some((before, reading)) = ways[state] {
+            given.push(readings[reading].clone());
+            state = before;
+        }
+        given.reverse();
+        given
+    };
+    let mut state = 0;
+    'all: while state < states.len() {
+        for (number, reading) in readings.iter().enumerate() {
+            if seen.scans == limit {
+                seen.stopped = Some(format!("the limit of {limit} scans was reached"));
+                break 'all;
+            }
+            if seen.scans.is_multiple_of(1024) && stop() {
+                seen.stopped = Some("the search was stopped".to_owned());
+                break 'all;
+            }
+            run.restore(&states[state]);
+            let scan = run.scan(reading);
+            seen.scans += 1;
+            if scan.broken.iter().any(|broken| restrictions.contains(broken)) {
+                continue;
+            }
+            if let Some(failure) = scan.failure {
+                seen.failures.entry(failure).or_insert_with(|| way(&ways, state, number));
+                continue;
+            }
+            seen.ended += 1;
+            for &claim in claims {
+                let of = &subject.claims[claim];
+                if !of.form.fits(scan.memory[of.variable.0] == 1, scan.wanted[of.signal.0]) {
+                    seen.wrong.entry(claim).or_insert_with(|| way(&ways, state, number));
+                }
+            }
+            let position = run.position();
+            if known.insert(key(&position)) {
+                states.push(position);
+                ways.push(Some((state, number)));
+            }
+        }
+        state += 1;
+    }
+    seen.states = states.len() as u64;
+    Some(seen)
+}
