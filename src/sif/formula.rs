@@ -64,7 +64,7 @@ impl Operator {
     }
 
     /// What it makes of its operands, bit by bit.
-    fn apply(self, mut operands: impl Iterator<Item = u64>) -> u64 {
+    pub(super) fn apply(self, mut operands: impl Iterator<Item = u64>) -> u64 {
         match self {
             Self::And => operands.fold(u64::MAX, |all, word| all & word),
             Self::Or => operands.fold(0, |any, word| any | word),

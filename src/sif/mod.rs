@@ -16,7 +16,9 @@
 //! ```
 
 mod cone;
+mod criteria;
 mod diagram;
+mod faults;
 mod formula;
 mod parse;
 mod plan;
@@ -29,7 +31,9 @@ mod specification;
 mod written;
 
 pub use cone::{Cone, Encoded};
+pub use criteria::{Limits, Study, coverage_of, excluded, plan};
 pub use diagram::{Cube, Diagram, Diagrams};
+pub use faults::Class;
 pub use formula::{Formula, Operator, SignalId};
 pub use plan::{ClassCoverage, Coverage, Criterion, Excluded, Missed, Plan, Test};
 pub use requirements::requirements;

@@ -2,6 +2,7 @@
 
 use fixedbitset::FixedBitSet;
 
+use super::diagram::Cube;
 use super::formula::SignalId;
 
 /// By which rule tests are chosen.
@@ -52,6 +53,12 @@ pub struct Plan {
     pub tests: Vec<Test>,
     /// Why these are not all tests of the criterion, if they are not: how many they are, what was not decided.
     pub incomplete: Option<String>,
+    /// What is to be said besides: conditions that decide nothing, values that two inputs cannot have together.
+    pub notes: Vec<String>,
+    /// Whether it is proved that no fewer tests would do.
+    pub is_smallest: bool,
+    /// Where the valuations are too many to be listed: some of the cubes that they make up, of the inputs that vary.
+    pub cubes: Vec<Cube>,
     /// Which single faults the tests find.
     pub coverage: Coverage,
 }
@@ -105,13 +112,20 @@ pub struct Missed {
 /// The valuations of a function that make an output TRUE, and which of them cannot be.
 #[derive(Clone, Debug)]
 pub struct Excluded {
+    /// The inputs that the function's outputs are computed from.
+    pub varied: Vec<SignalId>,
     /// How many valuations its inputs have, as a decimal number.
     pub valuations: String,
     /// How many make an output TRUE; nothing if that could not be counted.
     pub triggering: Option<String>,
+    /// How many of these cannot be.
+    pub excluded: Option<String>,
     /// For each restriction that excludes any: its position among all restrictions, how many of the triggering valuations it
     /// excludes, and how many no other restriction does.
     pub by_restriction: Vec<(usize, String, String)>,
-    /// The excluded valuations with the positions of all restrictions that exclude them; only if they are few.
+    /// The excluded valuations with the positions of all restrictions that exclude them; only if they are few. If no restriction
+    /// does alone, because they speak of further inputs, these exclude it together.
     pub listed: Option<Vec<(FixedBitSet, Vec<usize>)>>,
+    /// Some of the cubes that the excluded valuations make up, if they are not listed.
+    pub cubes: Vec<Cube>,
 }

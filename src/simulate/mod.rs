@@ -16,6 +16,7 @@ mod within;
 
 pub use breakpoint::{Breakpoint, condition};
 pub use chance::Chance;
+pub(crate) use lots::Lots;
 pub use plan::{Impossible, Plan, scan};
 pub use session::Session;
 pub use stopped::Stopped;

@@ -1,0 +1,89 @@
+//! How the inputs are set that a function does not look at: as at rest, or close to that where restrictions need it.
+
+use fixedbitset::FixedBitSet;
+
+use super::super::cone::{Cone, Encoded, inputs_of};
+use super::super::formula::SignalId;
+use super::super::specification::{Restriction, Specification};
+use super::limits::{Limits, Questions};
+
+/// Makes whole tests of valuations of the inputs that vary.
+pub struct Completion<'s> {
+    cone: Cone<'s>,
+    /// The inputs outside of the cone; nothing if restrictions contradict each other there.
+    outside: Option<FixedBitSet>,
+    questions: Questions,
+    encoded: Encoded,
+}
+
+impl<'s> Completion<'s> {
+    /// For the tests of a function with this cone.
+    pub fn new(cone: &Cone<'s>, function: usize, limits: &Limits) -> Self {
+        let mut questions = Questions::new(limits);
+        let encoded = cone.encode(&mut questions.solver);
+        for restriction in &encoded.restrictions {
+            questions.solver.require([*restriction]);
+        }
+        let outside = outside(cone, function, limits);
+        Self { cone: cone.clone(), outside, questions, encoded }
+    }
+
+    /// All inputs that are TRUE in a test where the inputs that vary are so. Nothing if it cannot be, or was not found in time.
+    pub fn complete(&mut self, varied: &FixedBitSet) -> Option<FixedBitSet> {
+        let mut inputs = self.outside.clone()?;
+        let specification = self.cone.specification;
+        self.cone.inputs.iter().filter(|input| varied.contains(input.0)).for_each(|input| inputs.insert(input.0));
+        if self.cone.restrictions.is_empty() {
+            return Some(inputs);
+        }
+        let literals = &self.encoded.literals;
+        let fixed = |input: &SignalId| {
+            let literal = literals[input.0];
+            if varied.contains(input.0) { literal } else { !literal }
+        };
+        let fixed: Vec<_> = self.cone.inputs.iter().map(fixed).collect();
+        let wished: Vec<_> =
+            self.cone.connected.iter().map(|input| at_rest(specification, &self.encoded, *input)).collect();
+        let kept = self.questions.closest(&fixed, &wished)?;
+        for (input, is_at_rest) in self.cone.connected.iter().zip(kept) {
+            inputs.set(input.0, specification.rest(*input) == is_at_rest);
+        }
+        Some(inputs)
+    }
+}
+
+/// The literal that is true where an input is as at rest.
+fn at_rest(specification: &Specification, encoded: &Encoded, input: SignalId) -> super::super::solver::Literal {
+    let literal = encoded.literals[input.0];
+    if specification.rest(input) { literal } else { !literal }
+}
+
+/// The inputs outside of a cone that are TRUE.
+fn outside(cone: &Cone<'_>, function: usize, limits: &Limits) -> Option<FixedBitSet> {
+    let specification = cone.specification;
+    let resting = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
+    let mut inputs = resting.clone();
+    cone.all_inputs().for_each(|input| inputs.set(input.0, false));
+    let is_inside =
+        |restriction: &&Restriction| cone.restrictions.iter().any(|other| std::ptr::eq(*other, *restriction));
+    let others: Vec<&Restriction> =
+        specification.restrictions_of(function).filter(|restriction| !is_inside(restriction)).collect();
+    let settled = specification.settled(&resting);
+    if others.iter().all(|restriction| restriction.allowed.holds(|signal| settled.contains(signal.0))) {
+        return Some(inputs);
+    }
+    let of: Vec<SignalId> =
+        others.iter().flat_map(|restriction| inputs_of(specification, &restriction.allowed)).collect();
+    let around = Cone::of(specification, &of, others);
+    let mut questions = Questions::new(limits);
+    let encoded = around.encode(&mut questions.solver);
+    for restriction in &encoded.restrictions {
+        questions.solver.require([*restriction]);
+    }
+    let wished: Vec<_> = around.inputs.iter().map(|input| at_rest(specification, &encoded, *input)).collect();
+    let kept = questions.closest(&[], &wished)?;
+    for (input, is_at_rest) in around.inputs.iter().zip(kept) {
+        inputs.set(input.0, specification.rest(*input) == is_at_rest);
+    }
+    Some(inputs)
+}

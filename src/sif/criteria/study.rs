@@ -1,0 +1,130 @@
+//! What all criteria need to know of one function, found once.
+
+use fixedbitset::FixedBitSet;
+
+use super::super::faults::{Fault, Model, faults};
+use super::super::formula::SignalId;
+use super::super::plan::{Coverage, Criterion, Plan, Test};
+use super::super::specification::Specification;
+use super::all::{Choice, all};
+use super::allowed::Allowed;
+use super::completion::Completion;
+use super::cover::cover;
+use super::coverage::coverage;
+use super::limits::Limits;
+use super::mcdc::mcdc;
+use super::order::ordered;
+use super::pairs::pairs;
+use super::pool::{Pool, Sight};
+
+/// A function with its faults and the valuations that show them.
+pub struct Study<'s> {
+    model: Model<'s>,
+    limits: Limits,
+    faults: Vec<Fault>,
+    allowed: Option<Allowed>,
+    pool: Pool,
+    completion: Completion<'s>,
+}
+
+impl<'s> Study<'s> {
+    /// Finds what the criteria need.
+    #[must_use]
+    pub fn new(specification: &'s Specification, function: usize, limits: &Limits) -> Self {
+        let model = Model::new(specification, function);
+        let faults = faults(&model);
+        let allowed = Allowed::of(&model.cone, model.outputs(), limits, false);
+        let pool = Pool::new(&model, &faults, allowed.as_ref(), limits);
+        let completion = Completion::new(&model.cone, function, limits);
+        Self { model, limits: limits.clone(), faults, allowed, pool, completion }
+    }
+
+    /// The tests by a criterion.
+    pub fn plan(&mut self, criterion: Criterion) -> Plan {
+        let choice = match criterion {
+            Criterion::All => all(&self.model, self.allowed.as_ref(), true, &self.limits),
+            Criterion::AllBoth => all(&self.model, self.allowed.as_ref(), false, &self.limits),
+            Criterion::Mcdc => mcdc(&self.model, &self.pool, &self.limits),
+            Criterion::Faults => self.killing(),
+            Criterion::Pairs => pairs(&self.model, &self.pool, &self.limits),
+        };
+        self.finished(criterion, choice)
+    }
+
+    /// Which faults tests find: sets of the inputs that are TRUE.
+    pub fn coverage(&mut self, tests: &[FixedBitSet]) -> Coverage {
+        coverage(&self.model, &self.faults, &self.pool, &mut self.completion, tests)
+    }
+
+    /// A small set that shows every fault that can be seen.
+    fn killing(&self) -> Choice {
+        let found = cover(&self.pool.rows, self.pool.tests.len(), &self.limits.stop);
+        let undecided = self.pool.sights.iter().filter(|sight| **sight == Sight::Undecided).count();
+        let incomplete = (undecided > 0)
+            .then(|| format!("of {undecided} faults it was not decided within the limits whether they can be seen"));
+        Choice {
+            tests: found.chosen.iter().map(|test| self.pool.tests[*test].clone()).collect(),
+            is_smallest: found.is_smallest && self.pool.is_all,
+            incomplete,
+            ..Choice::default()
+        }
+    }
+
+    /// Whole tests in their order, with what they find.
+    fn finished(&mut self, criterion: Criterion, mut choice: Choice) -> Plan {
+        let specification = self.model.specification;
+        choice.purposes.resize(choice.tests.len(), Vec::new());
+        let chosen = choice.tests.len();
+        let mut tests = Vec::new();
+        for (test, purpose) in choice.tests.iter().zip(choice.purposes) {
+            if let Some(inputs) = self.completion.complete(test) {
+                tests.push(Test { values: inputs, purpose });
+            }
+        }
+        if tests.len() < chosen {
+            let lost = format!("for {} tests the other inputs could not be set", chosen - tests.len());
+            choice.incomplete = Some(choice.incomplete.map_or(lost.clone(), |reason| format!("{reason}; {lost}")));
+        }
+        let rest = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
+        let inputs: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
+        let settled = |at: usize| Test {
+            values: specification.settled(&inputs[at]),
+            purpose: std::mem::take(&mut tests[at].purpose),
+        };
+        let tests: Vec<Test> = ordered(&inputs, &rest).into_iter().map(settled).collect();
+        let values: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
+        // Where the tests are too many to be listed, nothing is known of what they would find.
+        let is_unlisted = tests.is_empty() && choice.incomplete.is_some();
+        let coverage = if is_unlisted { Coverage::default() } else { self.coverage(&values) };
+        Plan {
+            function: self.model.function,
+            criterion,
+            varied: self.model.cone.inputs.clone(),
+            touched: self.touched(),
+            tests,
+            incomplete: choice.incomplete,
+            notes: choice.notes,
+            is_smallest: choice.is_smallest,
+            cubes: choice.cubes,
+            coverage,
+        }
+    }
+
+    /// The outputs that depend on the inputs that vary, the function's own first.
+    fn touched(&self) -> Vec<SignalId> {
+        let specification = self.model.specification;
+        let mut reached = specification.valuation(self.model.cone.inputs.iter().copied());
+        for id in &specification.order {
+            let mut uses = false;
+            if let Some(formula) = specification.definition(*id) {
+                formula.each_signal(&mut |signal| uses |= reached.contains(signal.0));
+            }
+            if uses {
+                reached.insert(id.0);
+            }
+        }
+        let own = self.model.outputs();
+        let others = specification.outputs().filter(|output| !own.contains(output) && reached.contains(output.0));
+        own.iter().copied().chain(others).collect()
+    }
+}

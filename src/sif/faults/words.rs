@@ -1,0 +1,91 @@
+//! Faults in words.
+
+use super::super::formula::Formula;
+use super::changes::{Change, Fault};
+use super::model::Model;
+use super::nodes::formula;
+
+/// Longest text of a formula that is shown as a whole, in characters.
+const LONG: usize = 72;
+
+/// A fault in words: "`!ACC_Tst` is negated in `F1`: `… & !ACC_Tst & …`".
+#[must_use]
+pub fn described(model: &Model<'_>, fault: &Fault) -> String {
+    let at = &model.nodes[fault.node];
+    let specification = model.specification;
+    let text = |node: usize| short(&specification.text(&formula(&model.nodes, node)));
+    let literal = |signal, is_plain: bool| {
+        let name = specification.name(signal);
+        if is_plain { format!("`{name}`") } else { format!("`!{name}`") }
+    };
+    let this = text(fault.node);
+    let what = match fault.change {
+        Change::Negated => format!("`{this}` is negated"),
+        Change::Stuck(value) => format!("`{this}` is always {}", if value { "TRUE" } else { "FALSE" }),
+        Change::Operator(other) => format!("`{this}` has `{}` for its operator", other.symbol()),
+        Change::Converse => format!("`{this}` is `->` from right to left"),
+        Change::Without(position) => {
+            let operand = match &at.what {
+                super::What::Gate(_, operands) => text(operands[position]),
+                _ => String::new(),
+            };
+            format!("`{operand}` is missing in `{this}`")
+        }
+        Change::With(signal, is_plain) => format!("{} is a further operand of `{this}`", literal(signal, is_plain)),
+        Change::Literal(signal, is_plain) => format!("{} stands for `{this}`", literal(signal, is_plain)),
+    };
+    format!("{what}{}", place(model, fault.node))
+}
+
+/// A condition with its place: "`!ACC_Tst` in `… & !ACC_Tst & …`".
+#[must_use]
+pub fn named(model: &Model<'_>, node: usize) -> String {
+    let this = model.specification.text(&formula(&model.nodes, node));
+    format!("`{}`{}", short(&this), place(model, node))
+}
+
+/// Where a node is: what it is an operand of, cut down to its neighbours.
+fn place(model: &Model<'_>, node: usize) -> String {
+    let at = &model.nodes[node];
+    let specification = model.specification;
+    let equation = specification.name(model.equations[at.equation].signal);
+    let several = if model.equations.len() > 1 { format!(" of `{equation}`") } else { String::new() };
+    let Some(parent) = at.parent else { return several };
+    let Formula::Gate(operator, operands) = plain(formula(&model.nodes, parent)) else { return several };
+    let position = match &model.nodes[parent].what {
+        super::What::Gate(_, nodes) => nodes.iter().position(|other| *other == node).unwrap_or_default(),
+        _ => 0,
+    };
+    let whole = specification.text(&Formula::Gate(operator, operands.clone()));
+    if whole.chars().count() <= LONG {
+        return format!(" in `{whole}`{several}");
+    }
+    let near = position.saturating_sub(1)..operands.len().min(position + 2);
+    let mut pieces: Vec<String> = near.clone().map(|at| short(&specification.text(&operands[at]))).collect();
+    if near.start > 0 {
+        pieces.insert(0, "…".to_owned());
+    }
+    if near.end < operands.len() {
+        pieces.push("…".to_owned());
+    }
+    format!(" in `{}`{several}", pieces.join(&format!(" {} ", operator.symbol())))
+}
+
+fn plain(formula: Formula) -> Formula {
+    match formula {
+        Formula::Not(inner) => *inner,
+        other => other,
+    }
+}
+
+/// A text cut in the middle if it is long.
+fn short(text: &str) -> String {
+    let count = text.chars().count();
+    if count <= LONG {
+        return text.to_owned();
+    }
+    let half = LONG / 2 - 2;
+    let first: String = text.chars().take(half).collect();
+    let last: String = text.chars().skip(count - half).collect();
+    format!("{} … {}", first.trim_end(), last.trim_start())
+}
