@@ -24,7 +24,7 @@ pub use instruction::{Condition, Element, Function, Hazard, Instruction, Operand
 
 use std::collections::BTreeMap;
 
-use crate::semantics::{Role, Type, VarId};
+use crate::semantics::{Role, Type, VarId, spelling};
 use crate::source::Span;
 
 /// A flat program.
@@ -40,6 +40,8 @@ pub struct FlatProgram {
     pub code: Vec<Line>,
     /// Variables whose declarations do not allow every value of their types.
     pub restrictions: BTreeMap<VarId, Restriction>,
+    /// Elementary variables with an address, by its one spelling.
+    pub addresses: BTreeMap<String, VarId>,
     /// The time from one scan to the next in milliseconds, if a timer depends on it.
     pub scan_time: Option<u64>,
     /// The same whether one does or not.
@@ -102,5 +104,11 @@ impl FlatProgram {
     #[must_use]
     pub fn find(&self, name: &str) -> Option<VarId> {
         self.declared().find(|&id| self.variable(id).name.eq_ignore_ascii_case(name))
+    }
+
+    /// The elementary variable at an address like `%IX0.0`, however it is spelt.
+    #[must_use]
+    pub fn at(&self, address: &str) -> Option<VarId> {
+        self.addresses.get(&spelling(address)).copied()
     }
 }

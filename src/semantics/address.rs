@@ -32,6 +32,7 @@ pub struct Location {
 }
 
 /// An address in the one spelling that all its spellings share: `%ix0.0` and `%I0.0` are `%I0.0`.
+#[must_use]
 pub fn spelling(text: &str) -> String {
     let text = key(text);
     match text.as_bytes() {

@@ -48,7 +48,7 @@ mod testing;
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use address::Area;
+pub use address::{Area, spelling};
 pub use function::Function;
 pub use library::{CLOCK, RUNNING, text as library_text};
 pub use program::{
@@ -258,6 +258,7 @@ fn variables(symbols: &Symbols) -> Vec<Variable> {
         shape: symbol.shape.clone().unwrap_or(Shape::Scalar(Scalar::new(Type::BOOL))),
         initial: symbol.initial.clone(),
         area: symbol.area(),
+        address: symbol.location.as_ref().map(|location| spelling(&location.text)),
         span: symbol.span,
     });
     variables.collect()

@@ -56,6 +56,8 @@ pub struct Variable {
     pub initial: Value,
     /// The area of its address.
     pub area: Option<Area>,
+    /// Its address in the one spelling that all its spellings share.
+    pub address: Option<String>,
     /// Its declaration.
     pub span: Span,
 }

@@ -27,6 +27,7 @@ pub fn assemble(declarations: &str, code: &str) -> FlatProgram {
         cycle: 20,
         presets_vary: false,
         restrictions: Default::default(),
+        addresses: Default::default(),
     }
 }
 

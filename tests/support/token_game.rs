@@ -150,6 +150,7 @@ pub fn flat(mut variables: Vec<Variable>, code: Vec<Instruction>) -> FlatProgram
         cycle: 20,
         presets_vary: false,
         restrictions: Default::default(),
+        addresses: Default::default(),
     }
 }
 

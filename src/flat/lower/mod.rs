@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use super::narrow::{Timer, narrow};
 use super::{FlatProgram, Instruction, Line, Operand, Restriction, Target, Variable};
-use crate::semantics::{Condition, Pou, PouId, PouKind, Program, Role, Section, Type, VarId};
+use crate::semantics::{self, Condition, Pou, PouId, PouKind, Program, Role, Section, Shape, Type, VarId};
 use crate::source::Span;
 use buffers::Buffers;
 use layout::{Layouts, Leaf};
@@ -43,8 +43,8 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     let cycle = lowering.scan_time;
     let scan_time = has_timers.then_some(cycle);
     let name = program.pous[&program.entry].name.clone();
-    let Lowering { variables, code, restrictions, timers, .. } = lowering;
-    let mut flat = FlatProgram { name, variables, code, restrictions, scan_time, cycle, presets_vary: false };
+    let Lowering { variables, code, restrictions, addresses, timers, .. } = lowering;
+    let mut flat = FlatProgram { name, variables, code, restrictions, addresses, scan_time, cycle, presets_vary: false };
     narrow(&mut flat, &timers);
     flat
 }
@@ -72,6 +72,7 @@ struct Lowering<'p> {
     scan_time: u64,
     variables: Vec<Variable>,
     restrictions: BTreeMap<VarId, Restriction>,
+    addresses: BTreeMap<String, VarId>,
     code: Vec<Line>,
     /// The line of each label. Until the end, a jump's target is a label.
     labels: Vec<usize>,
@@ -88,6 +89,7 @@ impl<'p> Lowering<'p> {
             scan_time,
             variables: Vec::new(),
             restrictions: BTreeMap::new(),
+            addresses: BTreeMap::new(),
             code: Vec::new(),
             labels: Vec::new(),
             buffers: Buffers::default(),
@@ -111,6 +113,9 @@ impl<'p> Lowering<'p> {
                 (section, area) => layout::role(section, area),
             };
             let stored = !matches!(variable.section, Section::External(_) | Section::InOut | Section::Temp);
+            if stored {
+                self.locate(variable);
+            }
             let address = stored.then(|| {
                 let leaf = Leaf { name: variable.name.clone(), role, span: variable.span };
                 self.variables_of(&leaf, &variable.shape, &variable.initial)
@@ -119,6 +124,7 @@ impl<'p> Lowering<'p> {
         }
         for variable in &self.program.globals {
             let role = layout::role(variable.section, variable.area);
+            self.locate(variable);
             let leaf = Leaf { name: variable.name.clone(), role, span: variable.span };
             let address = self.variables_of(&leaf, &variable.shape, &variable.initial);
             self.globals.push(address);
@@ -131,6 +137,13 @@ impl<'p> Lowering<'p> {
             }
         }
         Frame { pou, variables, depth: 0, exit: self.label(), span: None }
+    }
+
+    /// Keeps the address of an elementary variable, which comes next.
+    fn locate(&mut self, variable: &semantics::Variable) {
+        if let (Some(address), Shape::Scalar(_)) = (&variable.address, &variable.shape) {
+            self.addresses.insert(address.clone(), VarId(self.variables.len()));
+        }
     }
 
     /// Variables that begin anew with every scan get their values.
