@@ -273,6 +273,12 @@ codes! {
     SifNotDefinable = "E0907",
     /// A value is defined by way of itself.
     SifCycle = "E0908",
+    /// A signal stands for a variable that the program does not have.
+    SifVariableUnknown = "E0911",
+    /// A signal stands for a variable of another kind.
+    SifVariableUnfit = "E0912",
+    /// Two signals stand for one variable.
+    SifVariableShared = "E0913",
 }
 
 impl Code {

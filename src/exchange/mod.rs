@@ -21,6 +21,7 @@ pub mod pnml;
 pub mod recorded;
 pub mod report_csv;
 pub mod sarif;
+pub mod sif;
 pub mod tapaal;
 pub mod tina;
 pub mod vcd;

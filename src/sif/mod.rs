@@ -15,6 +15,7 @@
 //! assert_eq!(specification.text(specification.definition(*stop).unwrap()), "beam & !door");
 //! ```
 
+mod binding;
 mod cone;
 mod diagram;
 mod formula;
@@ -22,14 +23,19 @@ mod parse;
 mod plan;
 mod requirements;
 mod resolve;
+mod run;
 mod solver;
 mod specification;
 mod written;
 
+pub use binding::{Binder, Located};
 pub use cone::{Cone, Encoded};
 pub use diagram::{Cube, Diagram, Diagrams};
 pub use formula::{Formula, Operator, SignalId};
 pub use plan::{ClassCoverage, Coverage, Criterion, Excluded, Missed, Plan, Test};
 pub use requirements::requirements;
+pub use run::{
+    Decide, Deviation, Ending, Fate, Hunt, Mutant, PlanRun, Runner, Start, TestRun, hunt, mutants, remembers,
+};
 pub use solver::{Answer, Literal, Solver, Stop};
 pub use specification::{Binding, Function, Kind, Place, Restriction, Scope, Signal, Specification, Zone};

@@ -44,7 +44,8 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     let scan_time = has_timers.then_some(cycle);
     let name = program.pous[&program.entry].name.clone();
     let Lowering { variables, code, restrictions, addresses, timers, .. } = lowering;
-    let mut flat = FlatProgram { name, variables, code, restrictions, addresses, scan_time, cycle, presets_vary: false };
+    let mut flat =
+        FlatProgram { name, variables, code, restrictions, addresses, scan_time, cycle, presets_vary: false };
     narrow(&mut flat, &timers);
     flat
 }
