@@ -2,7 +2,9 @@
 
 pub mod args;
 mod check;
+mod planned;
 mod requirements;
+mod run;
 
 use std::path::{Path, PathBuf};
 
@@ -19,13 +21,13 @@ pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
     match verb {
         SifVerb::Check(arguments) => check::run(arguments, console),
         SifVerb::Requirements(arguments) => requirements::run(arguments, console),
+        SifVerb::Run(arguments) => run::run(arguments, console),
     }
 }
 
 /// A specification with the texts it was read from.
 struct Read {
     specification: Specification,
-    #[expect(dead_code, reason = "for places in reports")]
     sources: Vec<Source>,
 }
 
