@@ -41,7 +41,9 @@ fn numbers(system: &System, trace: &ScanTrace, name: &str) -> Vec<i128> {
 fn every_example_is_listed() {
     let files = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")).unwrap();
     let paths = files.map(|file| file.unwrap().path()).filter(|path| path.extension().is_some_and(|end| end == "il"));
-    let found: BTreeSet<String> = paths.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+    let found = paths.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
+    // What belongs to a specification of safety functions has no plant.
+    let found: BTreeSet<String> = found.filter(|name| !name.starts_with("beam-interlock")).collect();
     assert_eq!(found, EXAMPLES.iter().map(|(name, _)| (*name).to_owned()).collect());
 }
 

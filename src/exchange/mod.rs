@@ -22,6 +22,7 @@ pub mod proof;
 pub mod recorded;
 pub mod report_csv;
 pub mod sarif;
+pub mod sif;
 pub mod tapaal;
 pub mod tina;
 pub mod vcd;

@@ -15,6 +15,7 @@
 //! assert_eq!(specification.text(specification.definition(*stop).unwrap()), "beam & !door");
 //! ```
 
+mod binding;
 mod cone;
 mod criteria;
 mod diagram;
@@ -25,11 +26,13 @@ mod plan;
 pub mod proof;
 mod requirements;
 mod resolve;
+mod run;
 pub mod sanity;
 mod solver;
 mod specification;
 mod written;
 
+pub use binding::{Binder, Located};
 pub use cone::{Cone, Encoded};
 pub use criteria::{Limits, Study, coverage_of, excluded, plan};
 pub use diagram::{Cube, Diagram, Diagrams};
@@ -37,5 +40,8 @@ pub use faults::Class;
 pub use formula::{Formula, Operator, SignalId};
 pub use plan::{ClassCoverage, Coverage, Criterion, Excluded, Missed, Plan, Test};
 pub use requirements::requirements;
+pub use run::{
+    Decide, Deviation, Ending, Fate, Hunt, Mutant, PlanRun, Runner, Start, TestRun, hunt, mutants, remembers,
+};
 pub use solver::{Answer, Literal, Solver, Stop};
 pub use specification::{Binding, Function, Kind, Place, Restriction, Scope, Signal, Specification, Zone};

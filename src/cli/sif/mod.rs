@@ -2,8 +2,10 @@
 
 pub mod args;
 mod check;
+mod planned;
 mod prove;
 mod requirements;
+mod run;
 
 use std::path::{Path, PathBuf};
 
@@ -21,6 +23,7 @@ pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
         SifVerb::Check(arguments) => check::run(arguments, console),
         SifVerb::Prove(arguments) => prove::run(arguments, console),
         SifVerb::Requirements(arguments) => requirements::run(arguments, console),
+        SifVerb::Run(arguments) => run::run(arguments, console),
     }
 }
 

@@ -24,7 +24,7 @@ use every::{Seen, every};
 pub use run::{Failure, Given, Scan};
 use search::{Bounds, Finding, Goal, goals, search};
 use shown::Shown;
-pub use subject::{Claim, Form, Located, Subject};
+pub use subject::{Claim, Form, Subject};
 use unrolled::Network;
 
 /// How a proof is looked for.

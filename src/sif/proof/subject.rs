@@ -4,8 +4,8 @@ use fixedbitset::FixedBitSet;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::flat::{FlatProgram, Tolerated};
-use crate::semantics::{Role, VarId};
-use crate::sif::{Binding, Formula, Kind, Place, Scope, SignalId, Specification};
+use crate::semantics::VarId;
+use crate::sif::{Binder, Formula, Kind, Located, Scope, SignalId, Specification};
 
 /// A specification, a program, and what is claimed of both.
 #[derive(Clone, Debug)]
@@ -65,9 +65,6 @@ impl Form {
     }
 }
 
-/// A diagnostic in one of the files of a specification, by its position.
-pub type Located = (usize, Diagnostic);
-
 impl<'a> Subject<'a> {
     /// What is claimed of a program by these functions, or by all if none are named.
     ///
@@ -101,9 +98,7 @@ impl<'a> Subject<'a> {
                 wanted.push((output, own.clone()));
             }
         }
-        let mut binder =
-            Binder { specification, program, signals: vec![None; program.variables.len()], found: Vec::new() };
-        let mut variables = vec![None; specification.signals.len()];
+        let mut binder = Binder::new(specification, program);
         let mut outside = Vec::new();
         for id in (0..specification.signals.len()).map(SignalId) {
             let signal = specification.signal(id);
@@ -122,12 +117,10 @@ impl<'a> Subject<'a> {
             if may_miss && matches!(signal.kind, Kind::Input { .. }) && program.find(&signal.name).is_none() {
                 outside.push(id);
             } else {
-                variables[id.0] = binder.bind(id);
+                binder.bind(id);
             }
         }
-        if !binder.found.is_empty() {
-            return Err(binder.found);
-        }
+        let variables = binder.finish()?;
         let claims = wanted.into_iter().filter_map(|(signal, restrictions)| {
             let form = match specification.signal(signal).kind {
                 Kind::Defined { delayed: Some(_), .. } => Form::NotWithout,
@@ -251,68 +244,5 @@ fn in_order(specification: &Specification, needed: &FixedBitSet) -> Result<Vec<S
         if order.len() == before {
             return left.first().map_or(Ok(order), |&first| Err(first));
         }
-    }
-}
-
-struct Binder<'a> {
-    specification: &'a Specification,
-    program: &'a FlatProgram,
-    /// The signal that each variable stands for.
-    signals: Vec<Option<SignalId>>,
-    found: Vec<Located>,
-}
-
-impl Binder<'_> {
-    fn report(&mut self, place: Place, diagnostic: Diagnostic) {
-        self.found.push((place.file, diagnostic));
-    }
-
-    /// The variable of a signal; nothing if an error has been said.
-    fn bind(&mut self, id: SignalId) -> Option<VarId> {
-        let signal = self.specification.signal(id);
-        let is_input = matches!(signal.kind, Kind::Input { .. });
-        let (variable, written, place) = match &signal.binding {
-            None => (self.program.find(&signal.name), &signal.name, signal.place),
-            Some(Binding::Variable(name, place)) => (self.program.find(name), name, *place),
-            Some(Binding::Address(address, place)) => (self.program.at(address), address, *place),
-        };
-        let Some(variable) = variable else {
-            let what = if is_input { "input" } else { "output" };
-            let message = match signal.binding {
-                Some(Binding::Address(..)) => format!("the program has no variable at `{written}`"),
-                _ => format!("the program has no variable `{written}`"),
-            };
-            let known = self.program.declared().map(|id| self.program.variable(id).name.as_str());
-            let count = self.found.len();
-            let diagnostic = Diagnostic::new(Code::SifVariableUnknown, place.span, message)
-                .suggest_at(count, written, known)
-                .help(format!("say which variable the {what} `{}` stands for: `is NAME` or `at %IX0.0`", signal.name));
-            self.report(place, diagnostic);
-            return None;
-        };
-        let declared = self.program.variable(variable);
-        let unfit = if !declared.ty.is_bool() {
-            Some((format!("is of type {}", declared.ty), "a signal stands for a variable of type BOOL"))
-        } else if is_input && declared.role != Role::Input {
-            Some(("is no input of the program".to_owned(), "an input stands for a variable in VAR_INPUT or at `%I…`"))
-        } else if !is_input && matches!(declared.role, Role::Input | Role::Constant) {
-            let what = if declared.role == Role::Input { "an input of the program" } else { "a constant" };
-            Some((format!("is {what}"), "an output stands for a variable that the program writes"))
-        } else {
-            None
-        };
-        if let Some((what, help)) = unfit {
-            let message = format!("`{}` {what}", declared.name);
-            self.report(place, Diagnostic::new(Code::SifVariableUnfit, place.span, message).help(help));
-            return None;
-        }
-        if let Some(other) = self.signals[variable.0].replace(id) {
-            let (other, name) = (self.specification.name(other), &declared.name);
-            let message = format!("`{}` and `{other}` both stand for `{name}`", signal.name);
-            let diagnostic = Diagnostic::new(Code::SifVariableShared, place.span, message);
-            self.report(place, diagnostic.help("use one name for both, or say which variable each stands for"));
-            return None;
-        }
-        Some(variable)
     }
 }

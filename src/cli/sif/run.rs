@@ -1,0 +1,206 @@
+//! `petril sif run`: tests of safety functions on the interpreter.
+
+use std::collections::BTreeSet;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
+use petril::flat::FlatProgram;
+use petril::sif::{Fate, Hunt, Located, Mutant, Plan, PlanRun, Runner, Specification, Start, hunt, mutants};
+use petril::witness::{Column, Table};
+
+use super::args::SifRun;
+use super::{Read, planned, specification};
+use crate::cli::console::{Colour, Console};
+use crate::cli::input::{Program, program};
+use crate::cli::report::counted;
+use crate::cli::{Failure, Outcome, SUCCESS, forms, output};
+
+/// So many tests or faults are told one by one.
+const MAX_TOLD: usize = 40;
+
+pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
+    refuse_twice(arguments)?;
+    let started = Instant::now();
+    let Read { specification, sources } = specification(&arguments.specification, console)?;
+    let Program { flat, source } = program(&arguments.program, &arguments.meaning.reading, console)?;
+    let functions = planned::functions(&arguments.function, &specification)?;
+    let plans = match &arguments.tests {
+        Some(path) => planned::read(path, &specification, &functions, console)?,
+        None => planned::made(&specification, &functions, arguments.criterion),
+    };
+    let start = if arguments.continued { Start::Continued } else { Start::PowerOn };
+    let runner = Runner::new(&specification, &flat, arguments.meaning.tolerated(), start, &plans);
+    let runner = runner.map_err(|found| unbound(&found, &sources, console))?;
+    let results = runner.run(&plans);
+    let found = arguments.mutants.then(|| {
+        let decide = |program: &FlatProgram| decide(&specification, program, &plans, arguments);
+        hunt(&runner, &plans, mutants(&flat, &source), &decide)
+    });
+    let excluded = if arguments.html.is_some() || arguments.json {
+        planned::excluded(&specification, &plans.iter().map(|plan| plan.function).collect::<Vec<_>>())
+    } else {
+        Vec::new()
+    };
+    let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
+    let ran = Ran { runner: &runner, source: &source, results: &results, hunt: found.as_ref() };
+    let sheets = Sheets {
+        specification: &specification,
+        sources: &sources,
+        plans: &plans,
+        origin: origin.as_deref(),
+        excluded: &excluded,
+        run: Some(ran),
+    };
+    if let Some(file) = &arguments.html {
+        output::write_text(file, &html::write(&sheets))?;
+    }
+    if let Some(file) = &arguments.junit {
+        output::write_text(file, &junit::write(&sheets, &ran, forms::stamp(started)))?;
+    }
+    if let Some(file) = &arguments.csv {
+        output::write_text(file, &results_csv::write(&sheets, &ran))?;
+    }
+    if arguments.json {
+        console.print_json(json::document(&sheets))?;
+    } else {
+        console.print(&text(&sheets, &ran, console))?;
+    }
+    let [_, failed, errors] = ran.counts();
+    Ok(if failed + errors == 0 { SUCCESS } else { ExitCode::from(1) })
+}
+
+/// What the program with a fault is that passes all tests.
+fn decide(_: &Specification, _: &FlatProgram, _: &[Plan], _: &SifRun) -> Fate {
+    Fate::Undecided("nobody has looked".to_owned())
+}
+
+/// Prints what stands for nothing in the program.
+fn unbound(found: &[Located], sources: &[petril::source::Source], console: &Console) -> Failure {
+    for (file, source) in sources.iter().enumerate() {
+        let own: Vec<_> =
+            found.iter().filter(|(of, _)| *of == file).map(|(_, diagnostic)| diagnostic.clone()).collect();
+        console.diagnostics(&own, source);
+    }
+    Failure::Reported
+}
+
+/// Refuses two forms in one file.
+fn refuse_twice(arguments: &SifRun) -> Result<(), Failure> {
+    let mut names = BTreeSet::new();
+    let mut files = [&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten();
+    files.find(|name| !names.insert(*name)).map_or(Ok(()), |twice| {
+        let message = format!("`{}` cannot be two things: give each form a file of its own", twice.display());
+        Err(Failure::Message(message))
+    })
+}
+
+/// The whole report.
+fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
+    let by = match (sheets.origin, sheets.plans.first()) {
+        (Some(file), _) => format!("from {file}"),
+        (None, Some(plan)) => format!("by `{}`", plan.criterion.name()),
+        (None, None) => String::new(),
+    };
+    let how = match ran.runner.start() {
+        Start::PowerOn => "each from power-on",
+        Start::Continued => "one after another without a restart",
+    };
+    let (name, file) = (&ran.program().name, ran.source.name());
+    let mut out = format!("program `{name}` from {file}: tests {by}, {how}\n\n");
+    out += &summary(sheets, ran).within(console.output_width());
+    out += &failures(sheets, ran, console.output_width());
+    out += &notes(sheets, ran);
+    let [passed, failed, errors] = ran.counts();
+    let tests = counted(sheets.tests(), "test");
+    out += &match (failed, errors) {
+        (0, 0) => format!("\n{tests}: {}\n", console.paint("all passed", Colour::Good)),
+        _ => {
+            let not = console.paint(&format!("{failed} failed"), Colour::Bad);
+            format!("\n{tests}: {passed} passed, {not}, {}\n", counted(errors, "error"))
+        }
+    };
+    out + &ran.hunt.map(|hunt| told(hunt, ran)).unwrap_or_default()
+}
+
+/// A row for each function; of many functions, only those with tests that are not passed.
+fn summary(sheets: &Sheets<'_>, ran: &Ran<'_>) -> Table {
+    let heads = ["tests", "passed", "failed", "errors"].map(Column::right).to_vec();
+    let mut table = Table::new(vec![vec![Column::left("function")], heads]);
+    let is_told =
+        |run: &PlanRun| sheets.plans.len() <= MAX_TOLD || run.tests.iter().any(|test| test.ending.word() != "passed");
+    for (plan, run) in sheets.plans.iter().zip(ran.results).filter(|(_, run)| is_told(run)) {
+        let count = |word| run.tests.iter().filter(|test| test.ending.word() == word).count();
+        let counts = [run.tests.len(), count("passed"), count("failed"), count("error")];
+        let name = sheets.specification.functions[plan.function].name.clone();
+        table.row(std::iter::once(name).chain(counts.map(|count| count.to_string())).collect());
+    }
+    table
+}
+
+/// The tests that are not passed.
+fn failures(sheets: &Sheets<'_>, ran: &Ran<'_>, width: usize) -> String {
+    let columns = [Column::left("not passed"), Column::left("why"), Column::left("inputs")];
+    let mut table = Table::new(columns.into_iter().map(|column| vec![column]).collect());
+    let mut count = 0;
+    for (plan, run) in sheets.plans.iter().zip(ran.results) {
+        let tests = plan.tests.iter().zip(&run.tests).enumerate();
+        for (number, (test, made)) in tests.filter(|(_, (_, made))| made.ending.word() != "passed") {
+            count += 1;
+            if count <= MAX_TOLD {
+                let name = &sheets.specification.functions[plan.function].name;
+                let why = reasons(sheets, ran, made).join("; ");
+                table.row(vec![format!("{name} test {}", number + 1), why, brief(sheets, test)]);
+            }
+        }
+    }
+    match count {
+        0 => String::new(),
+        1..=MAX_TOLD => format!("\n{}", table.within(width)),
+        _ => format!("\n{}… and {} more\n", table.within(width), count - MAX_TOLD),
+    }
+}
+
+/// What the tests leave alone.
+fn notes(sheets: &Sheets<'_>, ran: &Ran<'_>) -> String {
+    let mut out = String::new();
+    let unset: Vec<&str> = ran.runner.unset().map(|id| ran.program().variable(id).name.as_str()).collect();
+    if !unset.is_empty() {
+        let names = unset.iter().take(MAX_TOLD).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        out += &format!("\nnote: no signal stands for these inputs, which keep their initial values: {names}\n");
+    }
+    let absent: BTreeSet<_> = ran.results.iter().flat_map(|run| run.absent.iter().copied()).collect();
+    if !absent.is_empty() {
+        let names = absent.iter().take(MAX_TOLD).map(|id| format!("`{}`", sheets.specification.name(*id)));
+        let names = names.collect::<Vec<_>>().join(", ");
+        out += &format!("\nnote: the program does not have these outputs, which are not compared: {names}\n");
+    }
+    out
+}
+
+/// Which faults of the program are found.
+fn told(hunt: &Hunt, ran: &Ran<'_>) -> String {
+    let heads = ["faults", "found", "equivalent", "missed", "not decided"].map(Column::right).to_vec();
+    let mut table = Table::new(vec![vec![Column::left("fault of the program")], heads]);
+    let mut row = |name: &str, counts: [usize; 5]| {
+        table.row(std::iter::once(name.to_owned()).chain(counts.map(|count| count.to_string())).collect());
+    };
+    let of = |class: &str| hunt.counts(Some(class));
+    Mutant::CLASSES.iter().filter(|class| of(class)[0] > 0).for_each(|class| row(class, of(class)));
+    row("all", hunt.counts(None));
+    let mut out = format!("\n{table}");
+    let left: Vec<_> =
+        hunt.mutants.iter().filter(|(_, fate)| !matches!(fate, Fate::Found(..) | Fate::Equivalent)).collect();
+    for (mutant, fate) in left.iter().take(MAX_TOLD) {
+        let line = ran.source.line_of(ran.program().code[mutant.line].span.start);
+        let why = match fate {
+            Fate::Undecided(why) => format!("not decided: {why}"),
+            _ => "missed".to_owned(),
+        };
+        out += &format!("{}:{line}: {} ({why})\n", ran.source.name(), mutant.fault);
+    }
+    if left.len() > MAX_TOLD {
+        out += &format!("… and {} more\n", left.len() - MAX_TOLD);
+    }
+    out
+}

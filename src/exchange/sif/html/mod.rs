@@ -1,0 +1,84 @@
+//! The protocol of tests as one page, to be printed, filled in and signed: a cover, and for each function its data sheet, its
+//! tests with boxes to tick, what is left out, and which faults the tests find.
+//!
+//! There is no script in it, and a content security policy lets nothing be fetched. All texts of users are escaped in one
+//! place (`markup`).
+
+mod cover;
+mod data_sheet;
+mod faults;
+mod left_out;
+mod markup;
+mod matrix;
+mod test_sheet;
+
+use std::collections::BTreeSet;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest as _, Sha256};
+
+use super::Sheets;
+use crate::sif::{Formula, Kind, SignalId, Specification};
+use markup::escaped;
+
+/// How the page looks, on screens and on paper.
+const STYLE: &str = include_str!("protocol.css");
+
+/// Writes the protocol.
+#[must_use]
+pub fn write(sheets: &Sheets<'_>) -> String {
+    let title = sheets.specification.title.as_deref().unwrap_or("Safety functions");
+    let hash = STANDARD.encode(Sha256::digest(STYLE));
+    let mut page = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-{hash}'; \
+         base-uri 'none'; form-action 'none'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" content=\"Petril\">\n\
+         <title>{}: test protocol</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n",
+        escaped(title)
+    );
+    page += &cover::cover(sheets, title);
+    for (position, plan) in sheets.plans.iter().enumerate() {
+        let name = escaped(&sheets.specification.functions[plan.function].name);
+        page += &format!("<section class=\"function\" id=\"f{}\" aria-label=\"{name}\">\n", position + 1);
+        page += &data_sheet::data_sheet(sheets, plan);
+        page += &test_sheet::test_sheet(sheets, position, plan);
+        page += &sheets.excluded.get(position).map(|excluded| left_out::left_out(sheets, excluded)).unwrap_or_default();
+        page += &faults::coverage(sheets.specification, &plan.coverage);
+        page += "</section>\n";
+    }
+    page += &sheets.run.as_ref().and_then(|ran| Some(faults::hunt(ran, ran.hunt?))).unwrap_or_default();
+    page + "</main>\n</body>\n</html>\n"
+}
+
+/// The restrictions that speak of what a function depends on, by their positions.
+fn restrictions(specification: &Specification, function: usize) -> impl Iterator<Item = usize> + '_ {
+    let cone = crate::sif::Cone::of_function(specification, function);
+    let kept =
+        move |at: &usize| cone.restrictions.iter().any(|own| std::ptr::eq(*own, &specification.restrictions[*at]));
+    (0..specification.restrictions.len()).filter(kept)
+}
+
+/// The latch of an output, as it is written.
+fn latch(specification: &Specification, output: SignalId) -> Option<&Formula> {
+    match &specification.signal(output).kind {
+        Kind::Defined { latched, .. } => latched.as_ref(),
+        Kind::Input { .. } => None,
+    }
+}
+
+/// The delay of an output in milliseconds.
+fn delay(specification: &Specification, output: SignalId) -> Option<u32> {
+    match specification.signal(output).kind {
+        Kind::Defined { delayed, .. } => delayed,
+        Kind::Input { .. } => None,
+    }
+}
+
+/// Each once, in their order.
+fn once(ids: impl IntoIterator<Item = SignalId>) -> Vec<SignalId> {
+    let mut seen = BTreeSet::new();
+    ids.into_iter().filter(|id| seen.insert(*id)).collect()
+}

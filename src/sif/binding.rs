@@ -1,0 +1,101 @@
+//! Which variables of a program signals stand for.
+
+use super::formula::SignalId;
+use super::specification::{Binding, Kind, Place, Specification};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::flat::FlatProgram;
+use crate::semantics::{Role, VarId};
+
+/// A diagnostic in one of the files of a specification, by its position.
+pub type Located = (usize, Diagnostic);
+
+/// Finds the variables of signals: by `is NAME`, by `at %IX0.0`, or by their own name. What is wrong is kept to the end.
+#[derive(Debug)]
+pub struct Binder<'a> {
+    specification: &'a Specification,
+    program: &'a FlatProgram,
+    /// The signal that each variable stands for.
+    signals: Vec<Option<SignalId>>,
+    /// The variable of each signal that was asked for.
+    variables: Vec<Option<VarId>>,
+    found: Vec<Located>,
+}
+
+impl<'a> Binder<'a> {
+    /// Nothing is bound yet.
+    #[must_use]
+    pub fn new(specification: &'a Specification, program: &'a FlatProgram) -> Self {
+        let (signals, variables) = (vec![None; program.variables.len()], vec![None; specification.signals.len()]);
+        Self { specification, program, signals, variables, found: Vec::new() }
+    }
+
+    /// The variable of each signal that was asked for.
+    ///
+    /// # Errors
+    /// Signals that stand for nothing in the program, or for what they cannot.
+    pub fn finish(self) -> Result<Vec<Option<VarId>>, Vec<Located>> {
+        if self.found.is_empty() { Ok(self.variables) } else { Err(self.found) }
+    }
+
+    /// The variable of a signal if the program has it. Not to have what nobody bound to a variable is no mistake: it may be
+    /// the business of another program.
+    pub fn bind_if_there(&mut self, id: SignalId) -> Option<VarId> {
+        let signal = self.specification.signal(id);
+        let is_elsewhere = signal.binding.is_none() && self.program.find(&signal.name).is_none();
+        if is_elsewhere { None } else { self.bind(id) }
+    }
+
+    /// The variable of a signal; nothing if an error has been said.
+    pub fn bind(&mut self, id: SignalId) -> Option<VarId> {
+        if self.variables[id.0].is_some() {
+            return self.variables[id.0];
+        }
+        let signal = self.specification.signal(id);
+        let is_input = matches!(signal.kind, Kind::Input { .. });
+        let (variable, written, place) = match &signal.binding {
+            None => (self.program.find(&signal.name), &signal.name, signal.place),
+            Some(Binding::Variable(name, place)) => (self.program.find(name), name, *place),
+            Some(Binding::Address(address, place)) => (self.program.at(address), address, *place),
+        };
+        let Some(variable) = variable else {
+            let what = if is_input { "input" } else { "output" };
+            let message = match signal.binding {
+                Some(Binding::Address(..)) => format!("the program has no variable at `{written}`"),
+                _ => format!("the program has no variable `{written}`"),
+            };
+            let known = self.program.declared().map(|id| self.program.variable(id).name.as_str());
+            let diagnostic = Diagnostic::new(Code::SifVariableUnknown, place.span, message)
+                .suggest_at(self.found.len(), written, known)
+                .help(format!("say which variable the {what} `{}` stands for: `is NAME` or `at %IX0.0`", signal.name));
+            return self.report(place, diagnostic);
+        };
+        let declared = self.program.variable(variable);
+        let unfit = if !declared.ty.is_bool() {
+            Some((format!("is of type {}", declared.ty), "a signal stands for a variable of type BOOL"))
+        } else if is_input && declared.role != Role::Input {
+            Some(("is no input of the program".to_owned(), "an input stands for a variable in VAR_INPUT or at `%I…`"))
+        } else if !is_input && matches!(declared.role, Role::Input | Role::Constant) {
+            let what = if declared.role == Role::Input { "an input of the program" } else { "a constant" };
+            Some((format!("is {what}"), "an output stands for a variable that the program writes"))
+        } else {
+            None
+        };
+        if let Some((what, help)) = unfit {
+            let message = format!("`{}` {what}", declared.name);
+            return self.report(place, Diagnostic::new(Code::SifVariableUnfit, place.span, message).help(help));
+        }
+        if let Some(other) = self.signals[variable.0].replace(id) {
+            let (other, name) = (self.specification.name(other), &declared.name);
+            let message = format!("`{}` and `{other}` both stand for `{name}`", signal.name);
+            let diagnostic = Diagnostic::new(Code::SifVariableShared, place.span, message);
+            return self.report(place, diagnostic.help("use one name for both, or say which variable each stands for"));
+        }
+        self.variables[id.0] = Some(variable);
+        Some(variable)
+    }
+
+    fn report(&mut self, place: Place, diagnostic: Diagnostic) -> Option<VarId> {
+        self.found.push((place.file, diagnostic));
+        None
+    }
+}

@@ -1,0 +1,61 @@
+//! Which faults of a program tests find.
+
+use rayon::prelude::*;
+
+use super::Runner;
+use super::mutants::Mutant;
+use crate::flat::FlatProgram;
+use crate::sif::Plan;
+
+/// What became of a program with a fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// A test is not passed: the position of its plan, and its own.
+    Found(usize, usize),
+    /// No test finds it, and none could: it computes what is specified.
+    Equivalent,
+    /// No test finds it, though it differs from what is specified.
+    Missed,
+    /// No test finds it, and for this reason it is not known whether one could.
+    Undecided(String),
+}
+
+/// Whether a program that passes all tests computes what is specified.
+pub type Decide<'d> = dyn Fn(&FlatProgram) -> Fate + Sync + 'd;
+
+/// All faults of a program, with what became of each.
+#[derive(Clone, Debug, Default)]
+pub struct Hunt {
+    /// In the order of the program.
+    pub mutants: Vec<(Mutant, Fate)>,
+}
+
+impl Hunt {
+    /// How many there are of a class, or of all classes: all of them, found, equivalent, missed, undecided.
+    #[must_use]
+    pub fn counts(&self, class: Option<&str>) -> [usize; 5] {
+        let mut counts = [0; 5];
+        for (_, fate) in self.mutants.iter().filter(|(mutant, _)| class.is_none_or(|class| mutant.class == class)) {
+            counts[0] += 1;
+            counts[match fate {
+                Fate::Found(..) => 1,
+                Fate::Equivalent => 2,
+                Fate::Missed => 3,
+                Fate::Undecided(_) => 4,
+            }] += 1;
+        }
+        counts
+    }
+}
+
+/// Runs tests on programs with one fault each. What they do not find, `decide` looks at.
+#[must_use]
+pub fn hunt(runner: &Runner<'_>, plans: &[Plan], mutants: Vec<Mutant>, decide: &Decide<'_>) -> Hunt {
+    let fates = mutants.into_par_iter().map(|mutant| {
+        let program = mutant.of(runner.program());
+        let found = runner.with(&program).first_not_passed(plans);
+        let fate = found.map_or_else(|| decide(&program), |(plan, test)| Fate::Found(plan, test));
+        (mutant, fate)
+    });
+    Hunt { mutants: fates.collect() }
+}
