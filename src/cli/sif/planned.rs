@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use petril::exchange::sif::plan_csv;
-use petril::sif::{Criterion, Excluded, Plan, Specification};
+use petril::sif::{self, Criterion, Excluded, Limits, Plan, Specification};
 
 use crate::cli::Failure;
 use crate::cli::console::Console;
@@ -27,38 +27,14 @@ pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<
 
 /// The tests that a criterion chooses.
 pub fn made(specification: &Specification, functions: &[usize], criterion: Criterion) -> Vec<Plan> {
-    functions.iter().map(|&function| stub(specification, function, criterion)).collect()
+    let limits = Limits::default();
+    functions.iter().map(|&function| sif::plan(specification, function, criterion, &limits)).collect()
 }
 
 /// What is left out.
 pub fn excluded(specification: &Specification, functions: &[usize]) -> Vec<Excluded> {
-    let _ = (specification, functions);
-    Vec::new()
-}
-
-fn stub(specification: &Specification, function: usize, criterion: Criterion) -> Plan {
-    let cone = petril::sif::Cone::of_function(specification, function);
-    let n = cone.inputs.len().min(10);
-    let mut tests = Vec::new();
-    for number in 0..1_u64 << n {
-        let mut values = specification.valuation(specification.inputs().filter(|i| specification.rest(*i)));
-        (0..n).for_each(|bit| values.set(cone.inputs[bit].0, number >> bit & 1 == 1));
-        let values = specification.settled(&values);
-        let allowed = cone.allows(&|s| u64::from(values.contains(s.0))) & 1 == 1;
-        let on = specification.functions[function].outputs.iter().any(|o| values.contains(o.0));
-        if allowed && (on || criterion == Criterion::AllBoth) && tests.len() < 40 {
-            tests.push(petril::sif::Test { values, purpose: vec![format!("situation {number}")] });
-        }
-    }
-    Plan {
-        function,
-        criterion,
-        varied: cone.inputs.clone(),
-        touched: specification.functions[function].outputs.clone(),
-        tests,
-        incomplete: None,
-        coverage: petril::sif::Coverage::default(),
-    }
+    let limits = Limits::default();
+    functions.iter().map(|&function| sif::excluded(specification, function, &limits)).collect()
 }
 
 /// The tests of a table, of these functions.
