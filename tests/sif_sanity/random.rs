@@ -280,8 +280,11 @@ impl Judge<'_> {
 
     /// All that a function is computed from, resets too.
     fn below_function(&self, function: usize) -> BTreeSet<SignalId> {
+        self.below(self.specification().functions[function].equations.clone())
+    }
+
+    fn below(&self, mut left: Vec<SignalId>) -> BTreeSet<SignalId> {
         let mut found = BTreeSet::new();
-        let mut left = self.specification().functions[function].equations.clone();
         while let Some(id) = left.pop() {
             if found.insert(id)
                 && let Kind::Defined { formula, latched, .. } = &self.specification().signal(id).kind
@@ -434,9 +437,9 @@ impl Judge<'_> {
                 loop {
                     let before = seen.len();
                     for other in self.book.of(Scope::Function(function)) {
-                        let more = inputs(&specification.restrictions[other].allowed);
-                        if more.iter().any(|input| seen.contains(input)) {
-                            seen.extend(more);
+                        let allowed = &specification.restrictions[other].allowed;
+                        if inputs(allowed).iter().any(|input| seen.contains(input)) {
+                            seen.extend(self.below(allowed.signals()));
                         }
                     }
                     if seen.len() == before {
