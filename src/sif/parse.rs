@@ -23,12 +23,19 @@ struct SifParser;
 pub(super) fn parse(source: &Source) -> (Written, Vec<Diagnostic>) {
     let text = source.text();
     let mut reader = Reader { written: Written::default(), diagnostics: Vec::new() };
-    if let Some(unreadable) = scan(text) {
-        return (reader.written, vec![unreadable]);
-    }
+    let open = match scan(text) {
+        Ok(open) => open,
+        Err(unreadable) => return (reader.written, vec![unreadable]),
+    };
     match SifParser::parse(Rule::file, text) {
         Ok(pairs) => reader.items(pairs.flat_map(Pair::into_inner), None, text),
-        Err(error) => reader.diagnostics.push(explained(&error, text, 0)),
+        Err(error) => reader.diagnostics.push(match open {
+            Some(at) => {
+                let diagnostic = Diagnostic::new(Code::SifSyntax, Span::new(at, at + 1), "this `{` is never closed");
+                diagnostic.help("close it with `}`, or what stands within it")
+            }
+            None => explained(&error, text, 0),
+        }),
     }
     (reader.written, reader.diagnostics)
 }
@@ -382,7 +389,9 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::open => "`{`",
         Rule::close => "`}`",
         Rule::close_group => "`)`",
-        Rule::formula | Rule::group | Rule::among | Rule::truth | Rule::negations => "a formula",
+        Rule::formula | Rule::group | Rule::among | Rule::truth | Rule::negations | Rule::body | Rule::spoken => {
+            "a formula"
+        }
         Rule::and | Rule::or | Rule::xor | Rule::implies | Rule::iff => "an operator",
         Rule::never_word => "`never`",
         Rule::always_word => "`always`",

@@ -188,7 +188,8 @@ impl Resolver<'_> {
             if let Some(first) = defined.insert(key(&name.text), place) {
                 let message = format!("`{}` has a second equation", name.text);
                 let diagnostic = Diagnostic::new(Code::SifNameTwice, place.span, message);
-                self.report(place, self.with(diagnostic, place, first, "the first is here"));
+                let diagnostic = self.with(diagnostic, place, first, "the first is here");
+                self.report(place, diagnostic.help("join both by an operator, or give each a name of its own"));
                 continue;
             }
             let known = self.names.get(&key(&name.text)).copied();

@@ -7,13 +7,14 @@ use crate::source::Span;
 /// within its stack.
 pub(super) const MAX_DEPTH: usize = 100;
 
-/// What makes a file unreadable as a whole.
-pub(super) fn scan(text: &str) -> Option<Diagnostic> {
+/// Where the innermost `{` stands that is never closed, if there is one; an error if the file is unreadable as a whole.
+pub(super) fn scan(text: &str) -> Result<Option<usize>, Diagnostic> {
     let bytes = text.as_bytes();
     let error = |at: usize, length: usize, message: String, help: &str| {
-        Some(Diagnostic::new(Code::SifSyntax, Span::new(at, at + length), message).help(help))
+        Err(Diagnostic::new(Code::SifSyntax, Span::new(at, at + length), message).help(help))
     };
     let (mut at, mut depth) = (0, 0_usize);
+    let mut open = Vec::new();
     // A text that holds the end of a statement and of a line has probably lost its quotation mark.
     let mut doubtful = None;
     while at < bytes.len() {
@@ -41,8 +42,16 @@ pub(super) fn scan(text: &str) -> Option<Diagnostic> {
                 at += length + 4;
                 continue;
             }
-            b'(' | b'{' => depth += 1,
-            b')' | b'}' => depth = depth.saturating_sub(1),
+            b'{' => {
+                open.push(at);
+                depth += 1;
+            }
+            b'}' => {
+                open.pop();
+                depth = depth.saturating_sub(1);
+            }
+            b'(' => depth += 1,
+            b')' => depth = depth.saturating_sub(1),
             // A zone, a function and a section are open at most.
             b';' => depth = depth.min(3),
             _ => {}
@@ -53,7 +62,7 @@ pub(super) fn scan(text: &str) -> Option<Diagnostic> {
         }
         at += rest.chars().next().map_or(1, char::len_utf8);
     }
-    None
+    Ok(open.pop())
 }
 
 /// Whether a line of a text ends with `;`, and another follows.
