@@ -63,7 +63,7 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
     let mut touched = FixedBitSet::with_capacity(specification.restrictions.len());
     let mut constant = Vec::new();
     let mut is_open = vec![false; specification.functions.len()];
-    for function in 0..specification.functions.len() {
+    for (function, is_open) in is_open.iter_mut().enumerate() {
         let mut model = Model::new(specification, cone(specification, function), stop);
         model.restrictions.iter().for_each(|(at, _)| touched.insert(*at));
         if !consistency.is_sound(function) {
@@ -73,7 +73,7 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
         let (found, still) = outputs::constant(&mut model, function);
         findings.extend(found);
         let Some(still) = still else {
-            is_open[function] = true;
+            *is_open = true;
             effects.leave_open(&model);
             continue;
         };
