@@ -28,6 +28,7 @@ mod requirements;
 mod resolve;
 mod run;
 pub mod sanity;
+mod scan;
 mod solver;
 mod specification;
 mod written;

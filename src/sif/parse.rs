@@ -9,6 +9,7 @@ use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
 
 use super::formula::{Formula, Operator};
+use super::scan::{MAX_DEPTH, scan};
 use super::written::{Name, Written, WrittenBinding, WrittenFunction, WrittenInput, WrittenOutput, WrittenRestriction};
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::logic::number;
@@ -18,44 +19,25 @@ use crate::source::{Source, Span};
 #[grammar = "../grammar/sif.pest"]
 struct SifParser;
 
-/// How deeply parentheses may be nested, and how many operators may follow each other that bind to the right. Whatever walks
-/// formulas stays within its stack.
-const MAX_DEPTH: usize = 100;
-
 /// Reads a file.
 pub(super) fn parse(source: &Source) -> (Written, Vec<Diagnostic>) {
     let text = source.text();
     let mut reader = Reader { written: Written::default(), diagnostics: Vec::new() };
-    if let Some(deep) = too_deep(text) {
-        return (reader.written, vec![deep]);
-    }
+    let open = match scan(text) {
+        Ok(open) => open,
+        Err(unreadable) => return (reader.written, vec![unreadable]),
+    };
     match SifParser::parse(Rule::file, text) {
         Ok(pairs) => reader.items(pairs.flat_map(Pair::into_inner), None, text),
-        Err(error) => reader.diagnostics.push(explained(&error, text, 0)),
+        Err(error) => reader.diagnostics.push(match open {
+            Some(at) => {
+                let diagnostic = Diagnostic::new(Code::SifSyntax, Span::new(at, at + 1), "this `{` is never closed");
+                diagnostic.help("close it with `}`, or what stands within it")
+            }
+            None => explained(&error, text, 0),
+        }),
     }
     (reader.written, reader.diagnostics)
-}
-
-/// Parentheses that no formula needs, counted before the grammar follows them.
-fn too_deep(text: &str) -> Option<Diagnostic> {
-    let mut depth = 0_usize;
-    let mut quoted = false;
-    for (at, byte) in text.bytes().enumerate() {
-        match byte {
-            b'"' => quoted = !quoted,
-            _ if quoted => {}
-            b'(' | b'{' => depth += 1,
-            b')' | b'}' => depth = depth.saturating_sub(1),
-            b';' => depth = depth.min(4),
-            _ => {}
-        }
-        if depth > MAX_DEPTH {
-            let message = format!("parentheses are nested more than {MAX_DEPTH} deep");
-            let help = "give the inner parts names of their own, by equations";
-            return Some(Diagnostic::new(Code::SifSyntax, Span::new(at, at + 1), message).help(help));
-        }
-    }
-    None
 }
 
 /// What is being read.
@@ -137,7 +119,8 @@ impl Reader {
         let rest = part(pair, Rule::normally).and_then(|normally| part(&normally, Rule::truth));
         let rest = rest.map(|truth| is_true(&truth));
         let description = part(pair, Rule::text).as_ref().map(unquoted);
-        let binding = binding(pair);
+        let binding = self.binding(pair);
+        self.once(pair, &[Rule::normally]);
         self.written.inputs.push(WrittenInput { name: named(&name), description, binding, rest, function });
     }
 
@@ -155,8 +138,30 @@ impl Reader {
             }
         }
         let description = part(pair, Rule::text).as_ref().map(unquoted);
-        let output = WrittenOutput { name: named(&name), description, binding: binding(pair), latched, delayed };
+        let binding = self.binding(pair);
+        self.once(pair, &[Rule::latched]);
+        self.once(pair, &[Rule::delayed]);
+        let output = WrittenOutput { name: named(&name), description, binding, latched, delayed };
         self.written.functions[function].outputs.push(output);
+    }
+
+    /// What a signal is in the program.
+    fn binding(&mut self, pair: &Pair<'_, Rule>) -> Option<WrittenBinding> {
+        self.once(pair, &[Rule::at, Rule::is]);
+        let at = part(pair, Rule::at).and_then(|at| part(&at, Rule::address)).as_ref().map(named);
+        let is = part(pair, Rule::is).and_then(|is| part(&is, Rule::variable)).as_ref().map(named);
+        is.map(WrittenBinding::Variable).or(at.map(WrittenBinding::Address))
+    }
+
+    /// Of these parts of a declaration there may be one.
+    fn once(&mut self, pair: &Pair<'_, Rule>, rules: &[Rule]) {
+        let mut parts = pair.clone().into_inner().filter(|part| rules.contains(&part.as_rule()));
+        if let (Some(first), Some(second)) = (parts.next(), parts.next()) {
+            let what = if rules == [Rule::at, Rule::is] { "where it is in the program" } else { "this" };
+            let message = format!("a declaration says {what} once");
+            let diagnostic = Diagnostic::new(Code::SifSyntax, span(&second), message);
+            self.diagnostics.push(diagnostic.also(span(&first), "it is said here already").help("leave one out"));
+        }
     }
 
     fn restriction(&mut self, pair: &Pair<'_, Rule>, zone: Option<usize>, function: Option<usize>) {
@@ -169,14 +174,10 @@ impl Reader {
             (Some(spoken), _) => self.among(spoken),
             (None, Some(formula)) => {
                 let place = span(&formula);
+                let is_spoken = formula.clone().into_inner().all(|part| part.as_rule() == Rule::among);
                 let formula = self.formula(formula);
-                let says_itself = matches!(
-                    formula,
-                    Some(Formula::Gate(
-                        Operator::Implies | Operator::Iff | Operator::AtMostOne | Operator::ExactlyOne,
-                        _
-                    ))
-                );
+                let is_rule = matches!(formula, Some(Formula::Gate(Operator::Implies | Operator::Iff, _)));
+                let says_itself = is_spoken || is_rule;
                 if is_plain && !says_itself && formula.is_some() {
                     let message =
                         format!("restriction `{}` does not say whether this is never or always so", name.as_str());
@@ -198,8 +199,8 @@ impl Reader {
 
     /// What a pair of the rule `formula` says, unless it is too large; an error has been said then.
     fn formula(&mut self, pair: Pair<'_, Rule>) -> Option<Formula<Name>> {
-        let chained =
-            |pair: &Pair<'_, Rule>| pair.clone().into_inner().filter(|p| p.as_rule() == Rule::implies).count();
+        let is_chained = |p: &Pair<'_, Rule>| matches!(p.as_rule(), Rule::implies | Rule::iff);
+        let chained = |pair: &Pair<'_, Rule>| pair.clone().into_inner().filter(is_chained).count();
         let all = std::iter::once(pair.clone()).chain(pair.clone().into_inner().flatten());
         if let Some(chain) = all.filter(|p| p.as_rule() == Rule::formula).find(|p| chained(p) > MAX_DEPTH) {
             let message = format!("more than {MAX_DEPTH} implications follow each other");
@@ -213,7 +214,7 @@ impl Reader {
         let word = part(&pair, Rule::among_word)?;
         let parts = pair.into_inner().filter(|part| part.as_rule() == Rule::formula);
         let parts: Option<Vec<_>> = parts.collect::<Vec<_>>().into_iter().map(|part| self.formula(part)).collect();
-        Some(Formula::Gate(among_operator(&word), parts?))
+        Some(among(&word, parts?))
     }
 
     /// Says why a piece is none of what can stand there.
@@ -327,26 +328,23 @@ fn primary(pair: Pair<'_, Rule>) -> Formula<Name> {
             None => Formula::Constant(false),
         },
         Rule::among => {
-            let operator = part(&pair, Rule::among_word).map_or(Operator::Or, |word| among_operator(&word));
+            let word = part(&pair, Rule::among_word);
             let parts = pair.into_inner().filter(|part| part.as_rule() == Rule::formula);
-            Formula::Gate(operator, parts.map(|part| formula(part.into_inner())).collect())
+            let parts = parts.map(|part| formula(part.into_inner())).collect();
+            word.map_or(Formula::Constant(false), |word| among(&word, parts))
         }
         _ => Formula::Signal(named(&pair)),
     }
 }
 
-fn among_operator(word: &Pair<'_, Rule>) -> Operator {
+/// One of these at most, at least, or both. At least one of one is that one.
+fn among(word: &Pair<'_, Rule>, mut parts: Vec<Formula<Name>>) -> Formula<Name> {
     match word.clone().into_inner().next().map(|word| word.as_rule()) {
-        Some(Rule::at_most) => Operator::AtMostOne,
-        Some(Rule::exactly) => Operator::ExactlyOne,
-        _ => Operator::Or,
+        Some(Rule::at_most) => Formula::Gate(Operator::AtMostOne, parts),
+        Some(Rule::exactly) => Formula::Gate(Operator::ExactlyOne, parts),
+        _ if parts.len() == 1 => parts.remove(0),
+        _ => Formula::Gate(Operator::Or, parts),
     }
-}
-
-fn binding(pair: &Pair<'_, Rule>) -> Option<WrittenBinding> {
-    let at = part(pair, Rule::at).and_then(|at| part(&at, Rule::address)).as_ref().map(named);
-    let is = part(pair, Rule::is).and_then(|is| part(&is, Rule::variable)).as_ref().map(named);
-    is.map(WrittenBinding::Variable).or(at.map(WrittenBinding::Address))
 }
 
 fn is_true(truth: &Pair<'_, Rule>) -> bool {
@@ -376,13 +374,7 @@ fn span(pair: &Pair<'_, Rule>) -> Span {
 }
 
 fn explained(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
-    let diagnostic = diagnostic::expected(error, (text, start), Code::SifSyntax, "the end", name);
-    let at = diagnostic.span().start - start;
-    if text[at..].starts_with("(*") {
-        let span = Span::new(start + at, start + at + 2);
-        return Diagnostic::new(Code::SifSyntax, span, "this comment is never closed").help("close it with `*)`");
-    }
-    diagnostic
+    diagnostic::expected(error, (text, start), Code::SifSyntax, "the end", name)
 }
 
 /// What a rule is called where it was expected.
@@ -397,7 +389,9 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::open => "`{`",
         Rule::close => "`}`",
         Rule::close_group => "`)`",
-        Rule::formula | Rule::group | Rule::among | Rule::truth | Rule::negations => "a formula",
+        Rule::formula | Rule::group | Rule::among | Rule::truth | Rule::negations | Rule::body | Rule::spoken => {
+            "a formula"
+        }
         Rule::and | Rule::or | Rule::xor | Rule::implies | Rule::iff => "an operator",
         Rule::never_word => "`never`",
         Rule::always_word => "`always`",

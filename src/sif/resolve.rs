@@ -27,6 +27,7 @@ impl Specification {
             specification: Self::default(),
             names: HashMap::new(),
             own: HashMap::new(),
+            rests: HashMap::new(),
             functions,
             zones,
             diagnostics,
@@ -47,6 +48,8 @@ struct Resolver<'s> {
     names: HashMap<String, SignalId>,
     /// Auxiliary values: function and name.
     own: HashMap<(usize, String), SignalId>,
+    /// The rest values that are written.
+    rests: HashMap<SignalId, bool>,
     /// For each file, where its functions are among all.
     functions: Vec<usize>,
     /// The same for its zones.
@@ -188,7 +191,8 @@ impl Resolver<'_> {
             if let Some(first) = defined.insert(key(&name.text), place) {
                 let message = format!("`{}` has a second equation", name.text);
                 let diagnostic = Diagnostic::new(Code::SifNameTwice, place.span, message);
-                self.report(place, self.with(diagnostic, place, first, "the first is here"));
+                let diagnostic = self.with(diagnostic, place, first, "the first is here");
+                self.report(place, diagnostic.help("join both by an operator, or give each a name of its own"));
                 continue;
             }
             let known = self.names.get(&key(&name.text)).copied();
@@ -250,6 +254,7 @@ impl Resolver<'_> {
                 let (name, description) = (input.name.text.clone(), input.description.clone());
                 let id = self.add(Signal { name, description, binding, kind, place });
                 self.names.insert(key(&input.name.text), id);
+                self.rests.extend(input.rest.map(|rest| (id, rest)));
                 id
             }
             Some(id) => {
@@ -267,6 +272,7 @@ impl Resolver<'_> {
     /// What a further declaration adds to a signal; an error if it contradicts.
     fn agree(&mut self, id: SignalId, input: &WrittenInput, binding: Option<Binding>, place: Place, of: Option<usize>) {
         let outputs = of.map(|of| self.specification.functions[of].outputs.contains(&id));
+        let rest = input.rest.map(|rest| *self.rests.entry(id).or_insert(rest));
         let signal = &mut self.specification.signals[id.0];
         let first = signal.place;
         let same = |a: &Binding, b: &Binding| match (a, b) {
@@ -281,14 +287,13 @@ impl Resolver<'_> {
                 Some("an output of another function; it has no rest value")
             }
             (_, Some(old), Some(new)) if !same(old, new) => Some("something else in the program"),
-            (Kind::Input { rest }, ..) => match input.rest {
-                Some(new) if new != *rest && *rest => Some("TRUE at rest"),
-                Some(new) => {
-                    *rest |= new;
-                    None
-                }
-                None => None,
-            },
+            (Kind::Input { .. }, ..) if rest != input.rest => {
+                Some(if rest == Some(true) { "TRUE at rest" } else { "FALSE at rest" })
+            }
+            (Kind::Input { rest: at_rest }, ..) => {
+                *at_rest = rest.unwrap_or(*at_rest);
+                None
+            }
             _ => None,
         };
         signal.binding = signal.binding.take().or(binding);

@@ -25,14 +25,13 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     let read = specification(&arguments.specification, console)?;
     let specification = &read.specification;
     listen();
-    let started = Instant::now();
-    let stop: Stop = Arc::new(move || started.elapsed() > limit || is_interrupted());
-    let findings = check(specification, &stop);
+    let findings = check(specification, &within(limit));
     for (file, source) in read.sources.iter().enumerate() {
         let here = findings.iter().filter(|finding| finding.place.file == file);
         let diagnostics: Vec<Diagnostic> = here.map(|finding| finding.diagnostic(specification)).collect();
         console.diagnostics(&diagnostics, source);
     }
+    let stop = within(limit);
     let counts: Vec<Vec<Counts>> =
         (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
     if arguments.json {
@@ -46,6 +45,12 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
         () if has(Doubt::NotDecided) => ExitCode::from(3),
         () => SUCCESS,
     })
+}
+
+/// Stops the work after some time, or where whoever started it wants it to end.
+fn within(limit: Duration) -> Stop {
+    let started = Instant::now();
+    Arc::new(move || started.elapsed() > limit || is_interrupted())
 }
 
 /// What there is, and how many valuations each output has.

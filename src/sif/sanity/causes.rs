@@ -20,8 +20,15 @@ const MAX_PARTS: usize = 5000;
 /// change are left out.
 pub fn removed(model: &mut Model<'_>, function: usize, constant: &[SignalId]) -> (Vec<Finding>, FxHashSet<Occurrence>) {
     let specification = model.specification;
-    let mut search =
-        Search { model, function, output: SignalId(0), left: 0, findings: Vec::new(), removed: FxHashSet::default() };
+    let mut search = Search {
+        model,
+        function,
+        output: SignalId(0),
+        left: 0,
+        depth: 0,
+        findings: Vec::new(),
+        removed: FxHashSet::default(),
+    };
     for &output in specification.functions[function].outputs.iter().filter(|output| !constant.contains(output)) {
         let Kind::Defined { formula, .. } = &specification.signal(output).kind else { continue };
         search.output = output;
@@ -35,6 +42,9 @@ pub fn removed(model: &mut Model<'_>, function: usize, constant: &[SignalId]) ->
     }
     (search.findings, search.removed)
 }
+
+/// And so deep, from one auxiliary value to the next.
+const MAX_DEPTH: usize = 300;
 
 /// A part of a formula, to be TRUE or to be FALSE.
 #[derive(Clone, Copy)]
@@ -78,6 +88,7 @@ struct Search<'m, 's> {
     output: SignalId,
     /// Parts that may still be looked at.
     left: usize,
+    depth: usize,
     findings: Vec<Finding>,
     removed: FxHashSet<Occurrence>,
 }
@@ -85,10 +96,16 @@ struct Search<'m, 's> {
 impl<'s> Search<'_, 's> {
     /// Looks for causes in a part; `beside` has to be true too for it to count.
     fn look(&mut self, part: &Part<'s>, beside: &mut Vec<(Literal, Formula)>) {
+        self.left = if self.depth == MAX_DEPTH { 0 } else { self.left.saturating_sub(1) };
         if self.left == 0 {
             return;
         }
-        self.left -= 1;
+        self.depth += 1;
+        self.look_into(part, beside);
+        self.depth -= 1;
+    }
+
+    fn look_into(&mut self, part: &Part<'s>, beside: &mut Vec<(Literal, Formula)>) {
         match self.shape(part) {
             Shape::Whole => {}
             Shape::All(parts) => self.all(&parts, beside),
@@ -106,14 +123,16 @@ impl<'s> Search<'_, 's> {
         if let [only] = parts {
             return self.look(only, beside);
         }
+        let written: Vec<Formula> = parts.iter().map(Part::written).collect();
+        let all: Vec<(Literal, Formula)> = written.into_iter().map(|part| (self.model.literal(&part), part)).collect();
         let before = beside.len();
         for (position, part) in parts.iter().enumerate() {
-            for (_, other) in parts.iter().enumerate().filter(|(at, _)| *at != position) {
-                let written = other.written();
-                beside.push((self.model.literal(&written), written));
+            if !matches!(self.shape(part), Shape::Whole) {
+                let others = all.iter().enumerate().filter(|(at, _)| *at != position);
+                beside.extend(others.map(|(_, other)| other.clone()));
+                self.look(part, beside);
+                beside.truncate(before);
             }
-            self.look(part, beside);
-            beside.truncate(before);
         }
     }
 
@@ -127,7 +146,7 @@ impl<'s> Search<'_, 's> {
                 }
                 _ => Shape::Whole,
             },
-            Formula::Not(inner) => Shape::All(vec![Part { formula: inner, is_true: !part.is_true, ..*part }]),
+            Formula::Not(inner) => self.shape(&Part { formula: inner, is_true: !part.is_true, ..*part }),
             Formula::Gate(operator, operands) => {
                 let same = || part.operands(operands, |_| part.is_true);
                 match (operator, part.is_true) {

@@ -62,7 +62,8 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
     let mut effects = Effects::new(specification);
     let mut touched = FixedBitSet::with_capacity(specification.restrictions.len());
     let mut constant = Vec::new();
-    for function in 0..specification.functions.len() {
+    let mut is_open = vec![false; specification.functions.len()];
+    for (function, is_open) in is_open.iter_mut().enumerate() {
         let mut model = Model::new(specification, cone(specification, function), stop);
         model.restrictions.iter().for_each(|(at, _)| touched.insert(*at));
         if !consistency.is_sound(function) {
@@ -71,6 +72,11 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
         }
         let (found, still) = outputs::constant(&mut model, function);
         findings.extend(found);
+        let Some(still) = still else {
+            *is_open = true;
+            effects.leave_open(&model);
+            continue;
+        };
         findings.extend(outputs::resets(&mut model, function, &still));
         let (found, removed) = causes::removed(&mut model, function, &still);
         findings.extend(found);
@@ -87,7 +93,8 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
     findings.retain(is_news);
     findings.extend(without);
     findings.extend(restrictions::apart(specification, &touched));
-    findings.extend(same::outputs(specification, &consistency, &constant, stop));
+    let is_left = |function: usize| consistency.is_sound(function) && !is_open[function];
+    findings.extend(same::outputs(specification, is_left, &constant, stop));
     findings.sort_by_key(|finding| (finding.place.file, finding.place.span.start));
     findings
 }

@@ -242,7 +242,19 @@ impl<'s> Model<'s> {
                 signals.push(signal);
             }
         }
-        signals.extend(self.cone.definitions.iter().copied().filter(|id| self.memory[id.0].is_some()));
+        // What is remembered counts where a formula uses it.
+        let mut used = FixedBitSet::with_capacity(self.memory.len());
+        for id in &self.cone.definitions {
+            if let Kind::Defined { formula, latched, .. } = &self.specification.signal(*id).kind {
+                std::iter::once(formula)
+                    .chain(latched)
+                    .for_each(|f| f.each_signal(&mut |signal| used.insert(signal.0)));
+            }
+        }
+        let restrictions = core.iter().map(|at| &self.specification.restrictions[*at].allowed);
+        restrictions.for_each(|f| f.each_signal(&mut |signal| used.insert(signal.0)));
+        let is_used = |id: &SignalId| self.memory[id.0].is_some() && used.contains(id.0);
+        signals.extend(self.cone.definitions.iter().copied().filter(is_used));
         let value = |signal: SignalId| (signal, self.solver.value(self.values.seen[signal.0]));
         Example { values: signals.into_iter().map(value).collect(), is_excluded }
     }

@@ -6,8 +6,9 @@ use super::super::specification::{Kind, Place, Specification};
 use super::finding::{Doubt, Finding};
 use super::model::Model;
 
-/// The outputs of a function whose formula is always TRUE or always FALSE, as findings and by themselves.
-pub fn constant(model: &mut Model<'_>, function: usize) -> (Vec<Finding>, Vec<SignalId>) {
+/// The outputs of a function whose formula is always TRUE or always FALSE, as findings and by themselves. The latter are
+/// nothing if that is open; then there is no point in asking more.
+pub fn constant(model: &mut Model<'_>, function: usize) -> (Vec<Finding>, Option<Vec<SignalId>>) {
     let (mut findings, mut constant) = (Vec::new(), Vec::new());
     let specification = model.specification;
     for &output in &specification.functions[function].outputs {
@@ -35,11 +36,12 @@ pub fn constant(model: &mut Model<'_>, function: usize) -> (Vec<Finding>, Vec<Si
                     let other = if value { "FALSE" } else { "TRUE" };
                     let question = format!("`{}` is ever {other}", specification.name(output));
                     findings.push(Finding::open(place, question).of(function));
+                    return (findings, None);
                 }
             }
         }
     }
-    (findings, constant)
+    (findings, Some(constant))
 }
 
 /// The latched outputs of a function, but for those that never change, that are never reset: the reset is FALSE, or does not count because what sets is TRUE.

@@ -9,14 +9,19 @@ use super::super::specification::{Kind, Scope, Specification};
 use super::finding::{Doubt, Finding};
 use super::model::Model;
 use super::outputs::equation;
-use super::restrictions::{Consistency, all, kept};
+use super::restrictions::{all, kept};
 
 /// Pairs of outputs that are always the same or never, where all restrictions are kept that are about both. Outputs that are
-/// latched, delayed, or never change, are left out.
-pub fn outputs(specification: &Specification, state: &Consistency, constant: &[SignalId], stop: &Stop) -> Vec<Finding> {
+/// latched, delayed, or never change, are left out, and those of functions that nothing can be said of.
+pub fn outputs(
+    specification: &Specification,
+    is_left: impl Fn(usize) -> bool,
+    constant: &[SignalId],
+    stop: &Stop,
+) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut outputs: Vec<(SignalId, usize)> = Vec::new();
-    for (function, of) in specification.functions.iter().enumerate().filter(|(at, _)| state.is_sound(*at)) {
+    for (function, of) in specification.functions.iter().enumerate().filter(|(at, _)| is_left(*at)) {
         let is_plain = |id: &SignalId| {
             matches!(specification.signal(*id).kind, Kind::Defined { latched: None, delayed: None, .. })
                 && !constant.contains(id)
