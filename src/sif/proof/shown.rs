@@ -6,7 +6,7 @@ use super::subject::Subject;
 use crate::explore::NoGates;
 use crate::flat::Hazard;
 use crate::semantics::Role;
-use crate::sif::Kind;
+use crate::sif::{Kind, Scope};
 
 /// The longest runs whose scans are simplified one by one.
 const MAX_SCANS: usize = 32;
@@ -94,11 +94,15 @@ impl Shown {
 pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
     let (specification, program) = (subject.specification, subject.program);
     let mut assumptions = Vec::new();
-    for &position in &subject.restrictions {
-        let restriction = &specification.restrictions[position];
-        let of =
-            if subject.everywhere.contains(&position) { "in every scan" } else { "for its functions, in every scan" };
-        assumptions.push(format!("{of}, {}: {}", restriction.name, restriction.text));
+    for scope in scopes(subject) {
+        let of = match scope {
+            Scope::System => String::new(),
+            Scope::Zone(zone) => format!(" for zone {}", specification.zones[zone].name),
+            Scope::Function(function) => format!(" for function {}", specification.functions[function].name),
+        };
+        let own = subject.restrictions.iter().map(|&at| &specification.restrictions[at]);
+        let own = own.filter(|own| own.scope == scope).map(|own| format!("{}: {}", own.name, own.text));
+        assumptions.push(format!("in every scan{of}, {}", own.collect::<Vec<_>>().join("; ")));
     }
     let bound: Vec<_> = subject.inputs().map(|(_, variable)| variable).collect();
     let free: Vec<&str> = program
@@ -107,7 +111,7 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
         .map(|input| program.variable(input).name.as_str())
         .collect();
     if !free.is_empty() {
-        assumptions.push(format!("inputs that the specification does not name have any value: {}", few(&free)));
+        assumptions.push(format!("inputs that no formula names have any value: {}", few(&free)));
     }
     if !subject.outside.is_empty() {
         let names: Vec<&str> = subject.outside.iter().map(|&id| specification.name(id)).collect();
@@ -137,6 +141,18 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
         }
     }
     assumptions
+}
+
+/// The scopes that restrictions have, in their order.
+fn scopes(subject: &Subject<'_>) -> Vec<Scope> {
+    let mut scopes: Vec<Scope> = Vec::new();
+    for &position in &subject.restrictions {
+        let scope = subject.specification.restrictions[position].scope;
+        if !scopes.contains(&scope) {
+            scopes.push(scope);
+        }
+    }
+    scopes
 }
 
 /// What else is worth knowing.
