@@ -88,12 +88,11 @@ fn all_runs(specification: &Specification, program: &FlatProgram) -> All {
         let output = program.find("q0").unwrap();
         let names: Vec<usize> =
             INPUTS.iter().map(|name| specification.signals.iter().position(|own| own.name == *name).unwrap()).collect();
-        let (id, formula, latched) = specification
+        let (formula, latched) = specification
             .signals
             .iter()
-            .enumerate()
-            .find_map(|(id, signal)| match &signal.kind {
-                Kind::Defined { formula, latched, .. } => Some((id, formula, latched)),
+            .find_map(|signal| match &signal.kind {
+                Kind::Defined { formula, latched, .. } => Some((formula, latched)),
                 Kind::Input { .. } => None,
             })
             .unwrap();
@@ -106,8 +105,7 @@ fn all_runs(specification: &Specification, program: &FlatProgram) -> All {
                     let input = names.iter().position(|&name| name == signal.0);
                     input.is_some_and(|input| bits >> input & 1 == 1)
                 };
-                let count = if every { 2 } else { 1 };
-                let mut restrictions = specification.restrictions.iter().filter(|own| count == 2 || own.name == "R");
+                let mut restrictions = specification.restrictions.iter().filter(|own| every || own.name == "R");
                 if !restrictions.all(|restriction| restriction.allowed.holds(is)) {
                     continue;
                 }
@@ -136,7 +134,6 @@ fn all_runs(specification: &Specification, program: &FlatProgram) -> All {
                 }
             }
         }
-        let _ = id;
     }
     all
 }

@@ -1,5 +1,7 @@
 //! What people are told: runs that were replayed, what is assumed, and what else is worth knowing.
 
+use fixedbitset::FixedBitSet;
+
 use super::disagreement;
 use super::run::{Failure, Given, Scan, run};
 use super::subject::Subject;
@@ -118,7 +120,8 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
         assumptions
             .push(format!("inputs that the program does not have are as restrictions need them: {}", few(&names)));
     }
-    let delayed = subject.definitions.iter().filter(|id| subject.is_delayed(**id));
+    let named = named(subject);
+    let delayed = subject.definitions.iter().filter(|id| subject.is_delayed(**id) && named.contains(id.0));
     let delayed: Vec<&str> = delayed.map(|&id| specification.name(id)).collect();
     if !delayed.is_empty() {
         let names = few(&delayed);
@@ -141,6 +144,18 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
         }
     }
     assumptions
+}
+
+/// What restrictions and definitions name.
+fn named(subject: &Subject<'_>) -> FixedBitSet {
+    let mut named = FixedBitSet::with_capacity(subject.specification.signals.len());
+    let restrictions = subject.restrictions.iter().map(|&at| &subject.specification.restrictions[at].allowed);
+    let definitions = subject.definitions.iter().filter_map(|&id| subject.specification.definition(id));
+    let resets = subject.definitions.iter().filter_map(|&id| subject.latch(id));
+    for formula in restrictions.chain(definitions).chain(resets) {
+        formula.each_signal(&mut |id| named.insert(id.0));
+    }
+    named
 }
 
 /// The scopes that restrictions have, in their order.
