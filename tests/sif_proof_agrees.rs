@@ -88,12 +88,11 @@ fn all_runs(specification: &Specification, program: &FlatProgram) -> All {
         let output = program.find("q0").unwrap();
         let names: Vec<usize> =
             INPUTS.iter().map(|name| specification.signals.iter().position(|own| own.name == *name).unwrap()).collect();
-        let (id, formula, latched) = specification
+        let (formula, latched) = specification
             .signals
             .iter()
-            .enumerate()
-            .find_map(|(id, signal)| match &signal.kind {
-                Kind::Defined { formula, latched, .. } => Some((id, formula, latched)),
+            .find_map(|signal| match &signal.kind {
+                Kind::Defined { formula, latched, .. } => Some((formula, latched)),
                 Kind::Input { .. } => None,
             })
             .unwrap();
@@ -106,8 +105,7 @@ fn all_runs(specification: &Specification, program: &FlatProgram) -> All {
                     let input = names.iter().position(|&name| name == signal.0);
                     input.is_some_and(|input| bits >> input & 1 == 1)
                 };
-                let count = if every { 2 } else { 1 };
-                let mut restrictions = specification.restrictions.iter().filter(|own| count == 2 || own.name == "R");
+                let mut restrictions = specification.restrictions.iter().filter(|own| every || own.name == "R");
                 if !restrictions.all(|restriction| restriction.allowed.holds(is)) {
                     continue;
                 }
@@ -136,7 +134,6 @@ fn all_runs(specification: &Specification, program: &FlatProgram) -> All {
                 }
             }
         }
-        let _ = id;
     }
     all
 }
@@ -241,4 +238,147 @@ fn remove_second_declaration(text: &str) -> String {
         !again
     };
     text.lines().filter(keep).map(|line| format!("{line}\n")).collect()
+}
+
+/// Two functions, of which the second may name the output of the first; each may have a latch and a restriction of its own.
+#[derive(Clone, Debug)]
+struct Pair {
+    formulas: [Tree; 2],
+    uses: Option<&'static str>,
+    resets: [Option<Tree>; 2],
+    restrictions: [Option<Tree>; 2],
+    /// What the program does instead, if it is wrong.
+    wrong: [Option<Tree>; 2],
+}
+
+fn pair() -> impl Strategy<Value = Pair> {
+    let optional =
+        |chance: f64| (proptest::option::weighted(chance, tree()), proptest::option::weighted(chance, tree()));
+    let uses = proptest::option::of(proptest::sample::select(vec!["and", "or", "xor"]));
+    ((tree(), tree()), uses, optional(0.5), optional(0.4), optional(0.2)).prop_map(
+        |(f, uses, resets, restrictions, wrong)| {
+            let [formulas, resets, restrictions, wrong] =
+                [(Some(f.0), Some(f.1)), resets, restrictions, wrong].map(|(a, b)| [a, b]);
+            Pair { formulas: formulas.map(Option::unwrap), uses, resets, restrictions, wrong }
+        },
+    )
+}
+
+impl Pair {
+    fn specification(&self) -> Specification {
+        let function = |at: usize| {
+            let latched = self.resets[at].as_ref().map_or(String::new(), |r| format!(" latched until {}", r.text()));
+            let restriction = self.restrictions[at].as_ref();
+            let restriction = restriction.map_or(String::new(), |r| format!("restriction S{at}: always {};", r.text()));
+            let used = if at == 1 { self.uses } else { None };
+            let used = used.map_or(String::new(), |operator| format!(" {operator} q0"));
+            format!(
+                "function F{at} {{ interface {{ input i0; input i1; input i2; output q{at}{latched}; }} \
+                 formal {{ q{at} = {}{used}; {restriction} }} }}\n",
+                self.formulas[at].text()
+            )
+        };
+        let text = function(0) + &function(1);
+        let (specification, diagnostics) = Specification::read(&[Source::new("pair.sif", text.as_str())]);
+        specification.unwrap_or_else(|| panic!("{text}\n{diagnostics:#?}"))
+    }
+
+    fn program(&self) -> FlatProgram {
+        let mut body = String::new();
+        for at in 0..2 {
+            body += &self.wrong[at].as_ref().unwrap_or(&self.formulas[at]).code();
+            if let (1, Some(operator)) = (at, self.uses) {
+                body += &format!("{} q0\n", operator.to_uppercase());
+            }
+            // The latch is a variable of its own, copied to the output.
+            match &self.resets[at] {
+                None => body += &format!("ST q{at}\n"),
+                Some(reset) => body += &format!("ST m\n{}R k{at}\nLD m\nS k{at}\nLD k{at}\nST q{at}\n", reset.code()),
+            }
+        }
+        support::program(&format!(
+            "PROGRAM p VAR_INPUT i0, i1, i2 : BOOL; END_VAR VAR_OUTPUT q0, q1 : BOOL; END_VAR \
+             VAR m, k0, k1 : BOOL; END_VAR\n{body}END_PROGRAM"
+        ))
+    }
+
+    /// Scans of a shortest run that keeps the restriction of a function and after which its output is wrong; whether there is a run at all.
+    fn shortest(&self, program: &FlatProgram, of: usize) -> (Option<usize>, bool) {
+        let ids = INPUTS.map(|name| program.find(name).unwrap());
+        let outputs = ["q0", "q1"].map(|name| program.find(name).unwrap());
+        let start: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
+        let mut queue = VecDeque::from([(start.clone(), [false; 2], 1)]);
+        let mut known = HashSet::from([(start, [false; 2])]);
+        let mut is_possible = false;
+        while let Some((memory, latches, depth)) = queue.pop_front() {
+            for bits in 0..8_u64 {
+                let value = |tree: &Tree| tree.value(bits);
+                if self.restrictions[of].as_ref().is_some_and(|restriction| !value(restriction)) {
+                    continue;
+                }
+                is_possible = true;
+                let mut now = [false; 2];
+                for at in 0..2 {
+                    let formula = value(&self.formulas[at]);
+                    let formula = match (at, self.uses) {
+                        (1, Some("and")) => formula && now[0],
+                        (1, Some("or")) => formula || now[0],
+                        (1, Some(_)) => formula != now[0],
+                        _ => formula,
+                    };
+                    now[at] = formula || latches[at] && self.resets[at].as_ref().is_some_and(|reset| !value(reset));
+                }
+                let mut machine = Machine::new(program);
+                machine.restore(&memory);
+                ids.iter().enumerate().for_each(|(input, &id)| machine.set(id, bits >> input & 1));
+                machine.scan().unwrap();
+                if (machine.value(outputs[of]) == 1) != now[of] {
+                    return (Some(depth), true);
+                }
+                let memory: Vec<u64> = (0..program.variables.len()).map(VarId).map(|id| machine.value(id)).collect();
+                if known.insert((memory.clone(), now)) {
+                    queue.push_back((memory, now, depth + 1));
+                }
+            }
+        }
+        (None, is_possible)
+    }
+}
+
+impl Tree {
+    fn value(&self, bits: u64) -> bool {
+        match self {
+            Self::Input(input, negated) => (bits >> input & 1 == 1) != *negated,
+            Self::Join(operator, a, b) => {
+                let (a, b) = (a.value(bits), b.value(bits));
+                match *operator {
+                    "and" => a && b,
+                    "or" => a || b,
+                    "xor" => a != b,
+                    "->" => !a || b,
+                    _ => a == b,
+                }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(programs(500)))]
+
+    /// What is proved of one output is used for the other only where it holds. Nothing is tried by the interpreter.
+    #[test]
+    fn on_two_functions(pair in pair()) {
+        let (specification, program) = (pair.specification(), pair.program());
+        let subject = Subject::new(&specification, &program, Tolerated::default(), &[]).unwrap();
+        let proof = prove(&subject, &Options { scans: 130, tries: 0, ..Options::default() });
+        for (of, answer) in proof.answers.iter().enumerate() {
+            let (shortest, is_possible) = pair.shortest(&program, of);
+            match &answer.outcome {
+                Outcome::Proved { .. } => prop_assert!(shortest.is_none() && is_possible, "{of} {shortest:?}"),
+                Outcome::Refuted(scans) => prop_assert_eq!(shortest, Some(scans.len()), "{}", of),
+                Outcome::Unknown(why) => prop_assert!(!is_possible, "{of} {why}"),
+            }
+        }
+    }
 }

@@ -26,6 +26,7 @@ pub mod reference;
 pub mod refined_net;
 pub mod reports;
 pub mod runs;
+pub mod sif_system;
 pub mod systems;
 pub mod token_game;
 

@@ -164,9 +164,10 @@ impl Search<'_> {
             let reason = if (self.bounds.stop)() {
                 format!("the search was stopped after runs of {scans} scans")
             } else {
+                let what = if self.goals[goal].claim().is_some() { "shows a difference" } else { "meets it" };
                 format!(
-                    "no run of up to {scans} scans shows a difference, and induction over {scans} scans does not exclude longer \
-                     ones ({bits} bits are carried from scan to scan)"
+                    "no run of up to {scans} scans {what}, and induction over {scans} scans does not exclude longer ones ({bits} \
+                     bits are carried from scan to scan)"
                 )
             };
             self.findings[goal] = Some(Finding::Open(reason));

@@ -1,12 +1,14 @@
 //! What people are told: runs that were replayed, what is assumed, and what else is worth knowing.
 
+use fixedbitset::FixedBitSet;
+
 use super::disagreement;
 use super::run::{Failure, Given, Scan, run};
 use super::subject::Subject;
 use crate::explore::NoGates;
 use crate::flat::Hazard;
 use crate::semantics::Role;
-use crate::sif::Kind;
+use crate::sif::{Kind, Scope};
 
 /// The longest runs whose scans are simplified one by one.
 const MAX_SCANS: usize = 32;
@@ -94,11 +96,15 @@ impl Shown {
 pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
     let (specification, program) = (subject.specification, subject.program);
     let mut assumptions = Vec::new();
-    for &position in &subject.restrictions {
-        let restriction = &specification.restrictions[position];
-        let of =
-            if subject.everywhere.contains(&position) { "in every scan" } else { "for its functions, in every scan" };
-        assumptions.push(format!("{of}, {}: {}", restriction.name, restriction.text));
+    for scope in scopes(subject) {
+        let of = match scope {
+            Scope::System => String::new(),
+            Scope::Zone(zone) => format!(" for zone {}", specification.zones[zone].name),
+            Scope::Function(function) => format!(" for function {}", specification.functions[function].name),
+        };
+        let own = subject.restrictions.iter().map(|&at| &specification.restrictions[at]);
+        let own = own.filter(|own| own.scope == scope).map(|own| format!("{}: {}", own.name, own.text));
+        assumptions.push(format!("in every scan{of}, {}", own.collect::<Vec<_>>().join("; ")));
     }
     let bound: Vec<_> = subject.inputs().map(|(_, variable)| variable).collect();
     let free: Vec<&str> = program
@@ -107,14 +113,15 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
         .map(|input| program.variable(input).name.as_str())
         .collect();
     if !free.is_empty() {
-        assumptions.push(format!("inputs that the specification does not name have any value: {}", few(&free)));
+        assumptions.push(format!("inputs that no formula names have any value: {}", few(&free)));
     }
     if !subject.outside.is_empty() {
         let names: Vec<&str> = subject.outside.iter().map(|&id| specification.name(id)).collect();
         assumptions
             .push(format!("inputs that the program does not have are as restrictions need them: {}", few(&names)));
     }
-    let delayed = subject.definitions.iter().filter(|id| subject.is_delayed(**id));
+    let named = named(subject);
+    let delayed = subject.definitions.iter().filter(|id| subject.is_delayed(**id) && named.contains(id.0));
     let delayed: Vec<&str> = delayed.map(|&id| specification.name(id)).collect();
     if !delayed.is_empty() {
         let names = few(&delayed);
@@ -137,6 +144,30 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
         }
     }
     assumptions
+}
+
+/// What restrictions and definitions name.
+fn named(subject: &Subject<'_>) -> FixedBitSet {
+    let mut named = FixedBitSet::with_capacity(subject.specification.signals.len());
+    let restrictions = subject.restrictions.iter().map(|&at| &subject.specification.restrictions[at].allowed);
+    let definitions = subject.definitions.iter().filter_map(|&id| subject.specification.definition(id));
+    let resets = subject.definitions.iter().filter_map(|&id| subject.latch(id));
+    for formula in restrictions.chain(definitions).chain(resets) {
+        formula.each_signal(&mut |id| named.insert(id.0));
+    }
+    named
+}
+
+/// The scopes that restrictions have, in their order.
+fn scopes(subject: &Subject<'_>) -> Vec<Scope> {
+    let mut scopes: Vec<Scope> = Vec::new();
+    for &position in &subject.restrictions {
+        let scope = subject.specification.restrictions[position].scope;
+        if !scopes.contains(&scope) {
+            scopes.push(scope);
+        }
+    }
+    scopes
 }
 
 /// What else is worth knowing.
