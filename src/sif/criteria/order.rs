@@ -13,11 +13,15 @@ const MAX_PASSES: usize = 8;
 /// traveling-salesman problems", 1958).
 #[must_use]
 pub fn ordered(tests: &[FixedBitSet], rest: &FixedBitSet) -> Vec<usize> {
-    let distance = |a: usize, b: usize| tests[a].symmetric_difference_count(&tests[b]);
-    let Some(first) = (0..tests.len()).min_by_key(|&test| tests[test].symmetric_difference_count(rest)) else {
+    let count = tests.len();
+    let Some(first) = (0..count).min_by_key(|&test| tests[test].symmetric_difference_count(rest)) else {
         return Vec::new();
     };
-    let mut left: Vec<usize> = (0..tests.len()).filter(|&test| test != first).collect();
+    let tests = &different(tests);
+    let width = tests.len() / count;
+    let of = |test: usize| &tests[test * width..][..width];
+    let distance = |a: usize, b: usize| of(a).iter().zip(of(b)).map(|(a, b)| (a ^ b).count_ones()).sum::<u32>();
+    let mut left: Vec<usize> = (0..count).filter(|&test| test != first).collect();
     let mut order = vec![first];
     let mut last = first;
     while let Some(at) = (0..left.len()).min_by_key(|&at| (distance(last, left[at]), left[at])) {
@@ -31,7 +35,7 @@ pub fn ordered(tests: &[FixedBitSet], rest: &FixedBitSet) -> Vec<usize> {
 }
 
 /// Turns pieces round; the first test stays.
-fn exchange(order: &mut [usize], distance: impl Fn(usize, usize) -> usize) {
+fn exchange(order: &mut [usize], distance: impl Fn(usize, usize) -> u32) {
     for _ in 0..MAX_PASSES {
         let mut is_better = false;
         for from in 1..order.len() {
@@ -50,4 +54,22 @@ fn exchange(order: &mut [usize], distance: impl Fn(usize, usize) -> usize) {
             return;
         }
     }
+}
+
+/// The inputs that are not the same in all tests, packed: so many words for each test.
+fn different(tests: &[FixedBitSet]) -> Vec<u64> {
+    let mut seen = tests.first().cloned().unwrap_or_default();
+    let mut always = seen.clone();
+    for test in tests {
+        seen.union_with(test);
+        always.intersect_with(test);
+    }
+    seen.difference_with(&always);
+    let width = seen.count_ones(..).div_ceil(64).max(1);
+    let mut words = vec![0; tests.len() * width];
+    for (test, words) in tests.iter().zip(words.chunks_mut(width)) {
+        let bits = seen.ones().enumerate().filter(|(_, input)| test.contains(*input));
+        bits.for_each(|(bit, _)| words[bit / 64] |= 1 << (bit % 64));
+    }
+    words
 }

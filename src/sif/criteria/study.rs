@@ -86,12 +86,14 @@ impl<'s> Study<'s> {
             choice.incomplete = Some(choice.incomplete.map_or(lost.clone(), |reason| format!("{reason}; {lost}")));
         }
         let rest = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
-        let inputs: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
-        let settled = |at: usize| Test {
-            values: specification.settled(&inputs[at]),
+        let mut values: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
+        let order = ordered(&values, &rest);
+        specification.settle_all(&mut values);
+        let test = |at: usize| Test {
+            values: std::mem::take(&mut values[at]),
             purpose: std::mem::take(&mut tests[at].purpose),
         };
-        let tests: Vec<Test> = ordered(&inputs, &rest).into_iter().map(settled).collect();
+        let tests: Vec<Test> = order.into_iter().map(test).collect();
         let values: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
         // Where the tests are too many to be listed, nothing is known of what they would find.
         let is_unlisted = tests.is_empty() && choice.incomplete.is_some();
