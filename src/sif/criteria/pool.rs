@@ -49,6 +49,12 @@ pub enum Sight {
 }
 
 impl Pool {
+    /// Where no valuation can be, no fault can be seen.
+    pub fn empty(faults: usize) -> Self {
+        let (rows, sights) = (vec![FixedBitSet::new(); faults], vec![Sight::Equivalent; faults]);
+        Self { tests: Vec::new(), rows, sights, is_all: true }
+    }
+
     /// All valuations that can be if they are few, else some that show every fault that can be seen.
     pub fn new(model: &Model<'_>, faults: &[Fault], allowed: Option<&Allowed>, limits: &Limits) -> Self {
         let count = allowed.and_then(|sets| sets.diagrams.count_if_few(&sets.allowed));
@@ -85,6 +91,9 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
     let encoded = model.cone.encode(&mut questions.solver);
     for restriction in &encoded.restrictions {
         questions.solver.require([*restriction]);
+    }
+    if questions.ask(&[]) == Answer::Unsatisfiable {
+        return Pool::empty(faults.len());
     }
     let view = View::in_solver(&mut questions.solver, model, encoded.literals.clone());
     let mut sights = vec![Sight::Undecided; faults.len()];

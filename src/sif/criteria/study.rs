@@ -34,13 +34,21 @@ impl<'s> Study<'s> {
         let model = Model::new(specification, function);
         let faults = faults(&model);
         let allowed = Allowed::of(&model.cone, model.outputs(), limits, false);
-        let pool = Pool::new(&model, &faults, allowed.as_ref(), limits);
         let completion = Completion::new(&model.cone, function, limits);
+        let pool = if completion.contradicts() {
+            Pool::empty(faults.len())
+        } else {
+            Pool::new(&model, &faults, allowed.as_ref(), limits)
+        };
         Self { model, limits: limits.clone(), faults, allowed, pool, completion }
     }
 
     /// The tests by a criterion.
     pub fn plan(&mut self, criterion: Criterion) -> Plan {
+        if self.pool.is_all && self.pool.tests.is_empty() {
+            let note = "no valuation can be: the restrictions contradict each other".to_owned();
+            return self.finished(criterion, Choice { notes: vec![note], is_smallest: true, ..Choice::default() });
+        }
         let choice = match criterion {
             Criterion::All => all(&self.model, self.allowed.as_ref(), true, &self.limits),
             Criterion::AllBoth => all(&self.model, self.allowed.as_ref(), false, &self.limits),
