@@ -210,6 +210,20 @@ impl Specification {
         }
     }
 
+    /// The same for any number of valuations: each set gets what is defined, too.
+    pub fn settle_all(&self, valuations: &mut [FixedBitSet]) {
+        for batch in valuations.chunks_mut(64) {
+            let mut words = vec![0_u64; self.signals.len()];
+            for (bit, valuation) in batch.iter().enumerate() {
+                valuation.ones().for_each(|id| words[id] |= 1 << bit);
+            }
+            self.settle(&mut words);
+            for (bit, valuation) in batch.iter_mut().enumerate() {
+                words.iter().enumerate().for_each(|(id, word)| valuation.set(id, word >> bit & 1 == 1));
+            }
+        }
+    }
+
     /// All signals that are TRUE where the inputs in this set are. What is latched or delayed has the value of its formula.
     #[must_use]
     pub fn settled(&self, inputs: &FixedBitSet) -> FixedBitSet {

@@ -12,12 +12,16 @@ use crate::cli::meaning::Meaning;
 pub enum SifVerb {
     /// Check that a specification makes sense: restrictions, unused inputs, functions that never change.
     Check(SifCheck),
+    /// Tell which triggering valuations restrictions exclude from the tests.
+    Excluded(SifExcluded),
     /// Prove that a program computes what is specified, or show the scans in which it does not.
     Prove(SifProve),
     /// Write a specification as requirements, for `petril check`.
     Requirements(SifRequirements),
     /// Run tests of safety functions on a program.
     Run(SifRun),
+    /// Make tests of safety functions, and say which faults they find.
+    Tests(SifTests),
 }
 
 impl SifVerb {
@@ -25,9 +29,11 @@ impl SifVerb {
     pub fn wants_json(&self) -> bool {
         match self {
             Self::Check(arguments) => arguments.json,
+            Self::Excluded(_) => false,
             Self::Prove(arguments) => arguments.json,
             Self::Requirements(_) => false,
             Self::Run(arguments) => arguments.json,
+            Self::Tests(arguments) => arguments.json,
         }
     }
 }
@@ -149,6 +155,72 @@ pub struct SifRun {
     /// What the PLC does where the standard leaves it open.
     #[command(flatten)]
     pub meaning: Meaning,
+}
+
+/// `petril sif tests`
+///
+/// A fault is a change in one place of one equation: a literal negated, missing, added or another one, an operator exchanged, a part that
+/// is always TRUE or FALSE, and so on. Of each class it is said how many there are, how many nothing can show, and how many the tests find.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Criteria:
+  all       every valuation that can be and makes an output TRUE
+  all-both  every valuation that can be
+  mcdc      each condition decides its outcome, once TRUE and once FALSE
+  faults    few tests that find every fault that can be seen
+  pairs     every two inputs have all values together that they can have
+
+Exit codes: 0 these are the tests, 2 bad usage or input, 3 they are not all, and it is said why.
+
+Examples:
+  petril sif tests examples/beam-interlock.sif
+  petril sif tests examples/beam-interlock.sif --compare
+  petril sif tests examples/beam-interlock.sif --criterion all --html protocol.html")]
+pub struct SifTests {
+    /// The specification. Several files are read as one.
+    #[arg(value_name = "SPEC", required = true)]
+    pub specification: Vec<PathBuf>,
+    /// A function to make tests of, if not all. May be given several times.
+    #[arg(short, long, value_name = "NAME")]
+    pub function: Vec<String>,
+    /// How tests are chosen.
+    #[arg(long, value_name = "NAME", value_parser = criterion, default_value = "faults", conflicts_with_all = ["tests", "compare"])]
+    pub criterion: Criterion,
+    /// A table of tests to judge instead, as `--csv` writes it.
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    pub tests: Option<PathBuf>,
+    /// Compare all criteria: tests, and faults they find.
+    #[arg(long, conflicts_with_all = ["json", "html", "csv"])]
+    pub compare: bool,
+    /// List at most so many tests of a function; if a criterion has more, it is said how many.
+    #[arg(long, value_name = "N", default_value_t = 4096)]
+    pub limit: usize,
+    /// Print one JSON document.
+    #[arg(long)]
+    pub json: bool,
+    /// Write a protocol as one page for a browser, to be printed and filled in.
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub html: Option<PathBuf>,
+    /// Write a table (CSV) with one row for each test.
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    pub csv: Option<PathBuf>,
+}
+
+/// `petril sif excluded`
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Example:
+  petril sif excluded examples/beam-interlock.sif")]
+pub struct SifExcluded {
+    /// The specification. Several files are read as one.
+    #[arg(value_name = "SPEC", required = true)]
+    pub specification: Vec<PathBuf>,
+    /// A function to look at, if not all. May be given several times.
+    #[arg(short, long, value_name = "NAME")]
+    pub function: Vec<String>,
+    /// List at most so many valuations of a function; if there are more, cubes stand for them.
+    #[arg(long, value_name = "N", default_value_t = 4096)]
+    pub limit: usize,
 }
 
 /// A criterion by its name.

@@ -2,10 +2,13 @@
 
 pub mod args;
 mod check;
+mod excluded;
 mod planned;
 mod prove;
 mod requirements;
 mod run;
+mod tests;
+mod valuations;
 
 use std::path::{Path, PathBuf};
 
@@ -21,9 +24,11 @@ use args::SifVerb;
 pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
     match verb {
         SifVerb::Check(arguments) => check::run(arguments, console),
+        SifVerb::Excluded(arguments) => excluded::run(arguments, console),
         SifVerb::Prove(arguments) => prove::run(arguments, console),
         SifVerb::Requirements(arguments) => requirements::run(arguments, console),
         SifVerb::Run(arguments) => run::run(arguments, console),
+        SifVerb::Tests(arguments) => tests::run(arguments, console),
     }
 }
 

@@ -4,16 +4,25 @@ use fixedbitset::FixedBitSet;
 
 use super::super::cone::{Cone, Encoded, inputs_of};
 use super::super::formula::SignalId;
+use super::super::solver::{Answer, Literal};
 use super::super::specification::{Restriction, Specification};
 use super::limits::{Limits, Questions};
 
 /// Makes whole tests of valuations of the inputs that vary.
 pub struct Completion<'s> {
     cone: Cone<'s>,
-    /// The inputs outside of the cone; nothing if restrictions contradict each other there.
-    outside: Option<FixedBitSet>,
+    outside: Outside,
     questions: Questions,
     encoded: Encoded,
+}
+
+/// The inputs outside of a cone that are TRUE.
+enum Outside {
+    Set(FixedBitSet),
+    /// Restrictions contradict each other there.
+    Contradiction,
+    /// They were not found within the limits.
+    Unknown,
 }
 
 impl<'s> Completion<'s> {
@@ -28,9 +37,15 @@ impl<'s> Completion<'s> {
         Self { cone: cone.clone(), outside, questions, encoded }
     }
 
+    /// Whether there can be no test, because restrictions of other inputs contradict each other.
+    pub fn contradicts(&self) -> bool {
+        matches!(self.outside, Outside::Contradiction)
+    }
+
     /// All inputs that are TRUE in a test where the inputs that vary are so. Nothing if it cannot be, or was not found in time.
     pub fn complete(&mut self, varied: &FixedBitSet) -> Option<FixedBitSet> {
-        let mut inputs = self.outside.clone()?;
+        let Outside::Set(outside) = &self.outside else { return None };
+        let mut inputs = outside.clone();
         let specification = self.cone.specification;
         self.cone.inputs.iter().filter(|input| varied.contains(input.0)).for_each(|input| inputs.insert(input.0));
         if self.cone.restrictions.is_empty() {
@@ -53,13 +68,12 @@ impl<'s> Completion<'s> {
 }
 
 /// The literal that is true where an input is as at rest.
-fn at_rest(specification: &Specification, encoded: &Encoded, input: SignalId) -> super::super::solver::Literal {
+fn at_rest(specification: &Specification, encoded: &Encoded, input: SignalId) -> Literal {
     let literal = encoded.literals[input.0];
     if specification.rest(input) { literal } else { !literal }
 }
 
-/// The inputs outside of a cone that are TRUE.
-fn outside(cone: &Cone<'_>, function: usize, limits: &Limits) -> Option<FixedBitSet> {
+fn outside(cone: &Cone<'_>, function: usize, limits: &Limits) -> Outside {
     let specification = cone.specification;
     let resting = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
     let mut inputs = resting.clone();
@@ -70,7 +84,7 @@ fn outside(cone: &Cone<'_>, function: usize, limits: &Limits) -> Option<FixedBit
         specification.restrictions_of(function).filter(|restriction| !is_inside(restriction)).collect();
     let settled = specification.settled(&resting);
     if others.iter().all(|restriction| restriction.allowed.holds(|signal| settled.contains(signal.0))) {
-        return Some(inputs);
+        return Outside::Set(inputs);
     }
     let of: Vec<SignalId> =
         others.iter().flat_map(|restriction| inputs_of(specification, &restriction.allowed)).collect();
@@ -81,9 +95,12 @@ fn outside(cone: &Cone<'_>, function: usize, limits: &Limits) -> Option<FixedBit
         questions.solver.require([*restriction]);
     }
     let wished: Vec<_> = around.inputs.iter().map(|input| at_rest(specification, &encoded, *input)).collect();
-    let kept = questions.closest(&[], &wished)?;
+    if questions.ask(&[]) == Answer::Unsatisfiable {
+        return Outside::Contradiction;
+    }
+    let Some(kept) = questions.closest(&[], &wished) else { return Outside::Unknown };
     for (input, is_at_rest) in around.inputs.iter().zip(kept) {
         inputs.set(input.0, specification.rest(*input) == is_at_rest);
     }
-    Some(inputs)
+    Outside::Set(inputs)
 }

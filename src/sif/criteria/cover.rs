@@ -18,16 +18,13 @@ pub struct Cover {
     pub is_smallest: bool,
 }
 
-/// Most rows, and most columns, that are compared with each other.
-const MAX_COMPARED: usize = 3000;
-
-/// Most steps of branch and bound.
-const MAX_STEPS: u64 = 200_000;
+/// Most rows and columns that any one of the steps may look at.
+const MAX_WORK: usize = 5_000_000;
 
 /// A small set of columns that has one at least of each row. Rows are sets of columns; empty ones are passed over.
 #[must_use]
 pub fn cover(rows: &[FixedBitSet], columns: usize, stop: &Stop) -> Cover {
-    let rows = fewest(rows);
+    let rows = fewest(rows, columns);
     // What is left, the other way round: which rows each column is in.
     let mut of = vec![FixedBitSet::with_capacity(rows.len()); columns];
     for (at, row) in rows.iter().enumerate() {
@@ -43,49 +40,61 @@ pub fn cover(rows: &[FixedBitSet], columns: usize, stop: &Stop) -> Cover {
     all.insert_range(..);
     let mut best = greedy(&sets, &all);
     lean(&sets, &all, &mut best);
-    let mut search = Search { sets: &sets, rows: &rows_of, best, steps: 0, stop };
+    let mut search = Search { sets: &sets, rows: &rows_of, best, work: 0, stop };
     let is_done = search.branch(&all, &mut Vec::new());
     let mut chosen: Vec<usize> = search.best.iter().map(|at| useful[*at]).collect();
     chosen.sort_unstable();
     Cover { chosen, is_smallest: is_done }
 }
 
-/// The rows that hold no other, each once.
-fn fewest(rows: &[FixedBitSet]) -> Vec<FixedBitSet> {
-    let mut seen: FxHashSet<&FixedBitSet> = FxHashSet::default();
-    let mut rows: Vec<(usize, &FixedBitSet)> = rows
-        .iter()
-        .map(|row| (row.count_ones(..), row))
-        .filter(|(count, row)| *count > 0 && seen.insert(row))
-        .collect();
-    rows.sort_by_key(|(count, _)| *count);
-    let mut kept: Vec<FixedBitSet> = Vec::new();
-    for (_, row) in rows {
-        if !kept.iter().take(MAX_COMPARED).any(|fewer| fewer.is_subset(row)) {
-            kept.push(row.clone());
+/// The rows that hold no other, each once, as far as the work allows.
+fn fewest(rows: &[FixedBitSet], columns: usize) -> Vec<FixedBitSet> {
+    let mut order = distinct(rows);
+    order.sort_by_key(|(count, at)| (*count, *at));
+    let mut times = vec![0_usize; columns];
+    order.iter().for_each(|(_, at)| rows[*at].ones().for_each(|column| times[column] += 1));
+    // A row that is held by others is looked for where its rarest column is.
+    let mut kept: Vec<Vec<usize>> = vec![Vec::new(); columns];
+    let (mut found, mut work) = (Vec::new(), 0);
+    for (_, at) in order {
+        let row = &rows[at];
+        let is_needless = work < MAX_WORK
+            && row.ones().any(|column| {
+                work += 1 + kept[column].len();
+                kept[column].iter().any(|fewer| rows[*fewer].is_subset(row))
+            });
+        if !is_needless {
+            found.push(row.clone());
+            let rarest = row.ones().min_by_key(|column| times[*column]);
+            rarest.into_iter().for_each(|column| kept[column].push(at));
+        }
+    }
+    found
+}
+
+/// The columns that no other holds, largest first, as far as the work allows.
+fn largest(columns: &[FixedBitSet]) -> Vec<usize> {
+    let mut order = distinct(columns);
+    order.sort_by_key(|(count, at)| (usize::MAX - count, *at));
+    let (mut kept, mut work): (Vec<usize>, usize) = (Vec::new(), 0);
+    for (_, at) in order {
+        let is_needless = work < MAX_WORK
+            && kept.iter().any(|larger| {
+                work += 1;
+                columns[at].is_subset(&columns[*larger])
+            });
+        if !is_needless {
+            kept.push(at);
         }
     }
     kept
 }
 
-/// The columns that no other holds, largest first.
-fn largest(columns: &[FixedBitSet]) -> Vec<usize> {
+/// Each set that is not empty once: how many are in it, and where it stands.
+fn distinct(sets: &[FixedBitSet]) -> Vec<(usize, usize)> {
     let mut seen: FxHashSet<&FixedBitSet> = FxHashSet::default();
-    let mut order: Vec<(usize, usize)> = columns
-        .iter()
-        .enumerate()
-        .filter(|(_, column)| seen.insert(column))
-        .map(|(at, column)| (column.count_ones(..), at))
-        .filter(|(count, _)| *count > 0)
-        .collect();
-    order.sort_by_key(|(count, at)| (usize::MAX - count, *at));
-    let mut kept: Vec<usize> = Vec::new();
-    for (_, at) in order {
-        if !kept.iter().take(MAX_COMPARED).any(|larger| columns[at].is_subset(&columns[*larger])) {
-            kept.push(at);
-        }
-    }
-    kept
+    let counted = sets.iter().enumerate().map(|(at, set)| (set.count_ones(..), at));
+    counted.filter(|(count, at)| *count > 0 && seen.insert(&sets[*at])).collect()
 }
 
 /// The column with most of what is left, again and again.
@@ -127,7 +136,7 @@ struct Search<'c> {
     sets: &'c [FixedBitSet],
     rows: &'c [Vec<usize>],
     best: Vec<usize>,
-    steps: u64,
+    work: usize,
     stop: &'c Stop,
 }
 
@@ -140,19 +149,23 @@ impl Search<'_> {
             }
             return true;
         }
-        self.steps += 1;
-        if self.steps > MAX_STEPS || (self.steps.is_multiple_of(64) && (self.stop)()) {
+        self.work += self.sets.len() / 64;
+        if self.work > MAX_WORK || (self.stop)() {
             return false;
         }
         if chosen.len() + self.bound(left) >= self.best.len() {
             return true;
         }
         let Some(row) = left.ones().min_by_key(|row| self.rows[*row].len()) else { return true };
+        self.work += self.rows[row].len() * self.rows.len().div_ceil(64);
         let mut columns: Vec<(usize, usize)> =
             self.rows[row].iter().map(|column| (self.sets[*column].intersection_count(left), *column)).collect();
         columns.sort_by_key(|(count, column)| (usize::MAX - count, *column));
         let mut is_done = true;
         for (_, column) in columns {
+            if self.work > MAX_WORK {
+                return false;
+            }
             let mut next = left.clone();
             next.difference_with(&self.sets[column]);
             chosen.push(column);
@@ -163,14 +176,16 @@ impl Search<'_> {
     }
 
     /// So many rows share no column: each needs one of its own.
-    fn bound(&self, left: &FixedBitSet) -> usize {
+    fn bound(&mut self, left: &FixedBitSet) -> usize {
         let mut taken = FixedBitSet::with_capacity(self.sets.len());
         let mut rows: Vec<usize> = left.ones().collect();
         rows.sort_by_key(|row| self.rows[*row].len());
         let mut count = 0;
         for row in rows {
-            if !self.rows[row].iter().any(|column| taken.contains(*column)) {
-                self.rows[row].iter().for_each(|column| taken.insert(*column));
+            let columns = &self.rows[row];
+            self.work += 1 + columns.len();
+            if !columns.iter().any(|column| taken.contains(*column)) {
+                columns.iter().for_each(|column| taken.insert(*column));
                 count += 1;
             }
         }

@@ -17,7 +17,8 @@ use super::limits::{Limits, Questions};
 /// Most cubes that stand for valuations that are too many.
 const MAX_CUBES: usize = 32;
 
-/// The valuations that make an output of a function TRUE and cannot be, and which restrictions exclude them.
+/// The valuations that make an output of a function TRUE and cannot be, and which restrictions exclude them. Only restrictions
+/// that have to do with its inputs are looked at.
 #[must_use]
 pub fn excluded(specification: &Specification, function: usize, limits: &Limits) -> Excluded {
     let outputs = &specification.functions[function].outputs;

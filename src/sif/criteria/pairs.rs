@@ -6,8 +6,9 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::super::cone::{Encoded, inputs_of};
+use super::super::cone::{Cone, inputs_of};
 use super::super::faults::Model;
+use super::super::formula::SignalId;
 use super::super::solver::{Answer, Literal};
 use super::all::Choice;
 use super::cover::cover;
@@ -177,75 +178,113 @@ fn built(model: &Model<'_>, limits: &Limits) -> Choice {
 }
 
 /// Makes tests input by input.
-struct Builder<'m> {
-    model: &'m Model<'m>,
-    questions: Questions,
-    encoded: Encoded,
-    /// For each input that varies, whether a restriction speaks of it.
-    is_bound: Vec<bool>,
+struct Builder {
+    parts: Vec<Part>,
+    /// For each input that varies, the part that restrictions join it with.
+    of: Vec<Option<usize>>,
     lots: Lots,
 }
 
-impl<'m> Builder<'m> {
-    fn new(model: &'m Model<'m>, limits: &Limits) -> Self {
+/// Inputs that restrictions join, on their own.
+struct Part {
+    questions: Questions,
+    /// The inputs that vary, by their positions, and their literals.
+    literals: Vec<(usize, Literal)>,
+    assumed: Vec<Literal>,
+    /// Values that can be beside those that are set.
+    model: Vec<(usize, bool)>,
+}
+
+impl Part {
+    fn new(model: &Model<'_>, input: SignalId, limits: &Limits) -> Self {
+        let cone = Cone::of(model.specification, &[input], model.cone.restrictions.clone());
         let mut questions = Questions::new(limits);
-        let encoded = model.cone.encode(&mut questions.solver);
+        let encoded = cone.encode(&mut questions.solver);
+        encoded.restrictions.iter().for_each(|restriction| questions.solver.require([*restriction]));
+        let inside = model.specification.valuation(cone.all_inputs());
+        let varied = model.cone.inputs.iter().enumerate().filter(|(_, input)| inside.contains(input.0));
+        let literals = varied.map(|(at, input)| (at, encoded.literals[input.0])).collect();
+        Self { questions, literals, assumed: Vec::new(), model: Vec::new() }
+    }
+
+    fn literal(&self, (at, value): (usize, bool)) -> Option<Literal> {
+        let (_, literal) = self.literals.iter().find(|(other, _)| *other == at)?;
+        Some(if value { *literal } else { !*literal })
+    }
+
+    fn holds(&self, value: (usize, bool)) -> bool {
+        self.model.contains(&value)
+    }
+
+    fn ask(&mut self) -> Answer {
+        let answer = self.questions.ask(&self.assumed);
+        if answer == Answer::Satisfiable {
+            let value = |(at, literal): &(usize, Literal)| (*at, self.questions.solver.value(*literal));
+            self.model = self.literals.iter().map(value).collect();
+        }
+        answer
+    }
+}
+
+impl Builder {
+    fn new(model: &Model<'_>, limits: &Limits) -> Self {
         let mut bound = FixedBitSet::with_capacity(model.specification.signals.len());
-        for (restriction, literal) in model.cone.restrictions.iter().zip(&encoded.restrictions) {
-            questions.solver.require([*literal]);
+        for restriction in &model.cone.restrictions {
             let of = inputs_of(model.specification, &restriction.allowed);
             of.into_iter().for_each(|input| bound.insert(input.0));
         }
-        let is_bound = model.cone.inputs.iter().map(|input| bound.contains(input.0)).collect();
-        Self { model, questions, encoded, is_bound, lots: Lots::new(3) }
-    }
-
-    fn literal(&self, (at, value): (usize, bool)) -> Literal {
-        let literal = self.encoded.literals[self.model.cone.inputs[at].0];
-        if value { literal } else { !literal }
+        let mut parts: Vec<Part> = Vec::new();
+        let mut of = vec![None; model.cone.inputs.len()];
+        for (at, input) in model.cone.inputs.iter().enumerate() {
+            if bound.contains(input.0) && of[at].is_none() {
+                let part = Part::new(model, *input, limits);
+                part.literals.iter().for_each(|(inside, _)| of[*inside] = Some(parts.len()));
+                parts.push(part);
+            }
+        }
+        Self { parts, of, lots: Lots::new(3) }
     }
 
     /// A test with these two values.
     fn build(&mut self, a: (usize, bool), b: (usize, bool), open: &Open) -> Result<Vec<(usize, bool)>, Answer> {
-        let inputs = self.is_bound.len();
-        let mut test = vec![a, b];
-        let mut assumed: Vec<Literal> = Vec::new();
-        assumed.extend([a, b].into_iter().filter(|(at, _)| self.is_bound[*at]).map(|value| self.literal(value)));
-        match self.questions.ask(&assumed) {
-            Answer::Satisfiable => {}
-            other => return Err(other),
+        for part in &mut self.parts {
+            let wanted = [a, b].into_iter().filter_map(|value| part.literal(value)).collect();
+            part.assumed = wanted;
+            match part.ask() {
+                Answer::Satisfiable => {}
+                other => return Err(other),
+            }
         }
-        let mut model = self.model_found();
-        let mut order: Vec<usize> = (0..inputs).filter(|at| *at != a.0 && *at != b.0).collect();
+        let mut test = vec![a, b];
+        let mut order: Vec<usize> = (0..self.of.len()).filter(|at| *at != a.0 && *at != b.0).collect();
         for at in 1..order.len() {
             order.swap(at, self.lots.below(at as u128 + 1) as usize);
         }
         for at in order {
             let (no, yes) = (open.gain((at, false), &test), open.gain((at, true), &test));
-            let mut value = if no == yes { self.lots.below(2) == 1 } else { yes > no };
-            if self.is_bound[at] {
-                // What is possible already need not be asked.
-                if no == yes {
-                    value = model[at];
-                }
-                assumed.push(self.literal((at, value)));
-                if model[at] != value {
-                    if self.questions.ask(&assumed) == Answer::Satisfiable {
-                        model = self.model_found();
-                    } else {
-                        value = !value;
-                        assumed.pop();
-                        assumed.push(self.literal((at, value)));
-                    }
-                }
-            }
+            let wish = if no == yes { self.lots.below(2) == 1 } else { yes > no };
+            let value = match self.of[at] {
+                None => wish,
+                Some(part) => self.parts[part].take(at, wish, no == yes),
+            };
             test.push((at, value));
         }
         Ok(test)
     }
+}
 
-    fn model_found(&self) -> Vec<bool> {
-        let inputs = self.model.cone.inputs.iter();
-        inputs.map(|input| self.questions.solver.value(self.encoded.literals[input.0])).collect()
+impl Part {
+    /// Sets an input: as is wished if that can be; if it is all the same, as in the model.
+    fn take(&mut self, at: usize, wish: bool, is_indifferent: bool) -> bool {
+        let is_so = self.holds((at, wish));
+        let wished = self.literal((at, wish));
+        self.assumed.extend(wished);
+        if is_so || (!is_indifferent && self.ask() == Answer::Satisfiable) {
+            return wish;
+        }
+        self.assumed.pop();
+        let other = self.literal((at, !wish));
+        self.assumed.extend(other);
+        !wish
     }
 }

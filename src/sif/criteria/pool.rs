@@ -2,8 +2,9 @@
 
 use fixedbitset::FixedBitSet;
 
+use super::super::cone::Encoded;
 use super::super::faults::{Fault, Model, View};
-use super::super::solver::Answer;
+use super::super::solver::{Answer, Literal};
 use super::allowed::Allowed;
 use super::limits::{Limits, Questions};
 use super::sample::sample;
@@ -17,6 +18,12 @@ const MAX_BITS: u64 = 1 << 30;
 
 /// How many valuations by chance are tried before a solver is asked.
 const BY_CHANCE: usize = 128;
+
+/// How many faults further on in the list a valuation from the solver is made to show, if it can.
+const MAX_PACKED: usize = 64;
+
+/// After how many of them in a row that it cannot show no more are tried.
+const MAX_MISSES: usize = 8;
 
 /// Valuations of the inputs that vary, all of which can be.
 pub struct Pool {
@@ -42,6 +49,12 @@ pub enum Sight {
 }
 
 impl Pool {
+    /// Where no valuation can be, no fault can be seen.
+    pub fn empty(faults: usize) -> Self {
+        let (rows, sights) = (vec![FixedBitSet::new(); faults], vec![Sight::Equivalent; faults]);
+        Self { tests: Vec::new(), rows, sights, is_all: true }
+    }
+
     /// All valuations that can be if they are few, else some that show every fault that can be seen.
     pub fn new(model: &Model<'_>, faults: &[Fault], allowed: Option<&Allowed>, limits: &Limits) -> Self {
         let count = allowed.and_then(|sets| sets.diagrams.count_if_few(&sets.allowed));
@@ -79,6 +92,9 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
     for restriction in &encoded.restrictions {
         questions.solver.require([*restriction]);
     }
+    if questions.ask(&[]) == Answer::Unsatisfiable {
+        return Pool::empty(faults.len());
+    }
     let view = View::in_solver(&mut questions.solver, model, encoded.literals.clone());
     let mut sights = vec![Sight::Undecided; faults.len()];
     let mut tests = sample(model, &mut questions, &encoded, BY_CHANCE, limits);
@@ -89,6 +105,8 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
         open.filter(|(fault, _)| view.kills(model, fault) & used != 0).for_each(|(_, sight)| *sight = Sight::Shown);
     }
     let mut lots = Lots::new(1);
+    // Nodes that decide nothing hide all their faults at once.
+    let mut is_hidden: Vec<Option<bool>> = vec![None; model.nodes.len()];
     for at in 0..faults.len() {
         if sights[at] != Sight::Undecided {
             continue;
@@ -96,12 +114,22 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
         if (limits.stop)() {
             break;
         }
+        let node = faults[at].node;
+        let mut is_never = || questions.ask(&[view.observed[node]]) == Answer::Unsatisfiable;
+        if *is_hidden[node].get_or_insert_with(&mut is_never) {
+            sights[at] = Sight::Equivalent;
+            continue;
+        }
         let seen = view.kills(&mut questions.solver, model, &faults[at]);
         match questions.ask(&[seen]) {
             Answer::Unsatisfiable => sights[at] = Sight::Equivalent,
             Answer::Stopped => {}
             Answer::Satisfiable => {
                 let found = encoded.model(&model.cone, &questions.solver);
+                let open = (at + 1..faults.len()).filter(|other| sights[*other] == Sight::Undecided);
+                let mut packed = Packed { model, questions: &mut questions, encoded: &encoded, view: &view, found };
+                packed.pack(seen, open.map(|other| &faults[other]));
+                let found = packed.found;
                 let near = neighbours(model, &found, &mut lots);
                 tests.extend(useful(model, faults, &mut sights, &near));
             }
@@ -111,6 +139,41 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
     tests.iter_mut().for_each(|test| test.intersect_with(&varied));
     let rows = rows(model, faults, &tests);
     Pool { tests, rows, sights, is_all: false }
+}
+
+/// A valuation that is to show as many faults as can be.
+struct Packed<'p, 'm> {
+    model: &'p Model<'m>,
+    questions: &'p mut Questions,
+    encoded: &'p Encoded,
+    view: &'p View<Literal>,
+    found: FixedBitSet,
+}
+
+impl Packed<'_, '_> {
+    /// Wants further faults to be shown, one after the other, beside what it shows already.
+    fn pack<'f>(&mut self, seen: Literal, open: impl Iterator<Item = &'f Fault>) {
+        let (mut assumed, mut misses) = (vec![seen], 0);
+        let mut known = View::of(self.model, std::slice::from_ref(&self.found));
+        for fault in open.take(MAX_PACKED) {
+            // What the solver left as it was is mostly left so again, without a word.
+            if known.kills(self.model, fault) & 1 == 1 {
+                continue;
+            }
+            assumed.push(self.view.kills(&mut self.questions.solver, self.model, fault));
+            if self.questions.ask(&assumed) == Answer::Satisfiable {
+                self.found = self.encoded.model(&self.model.cone, &self.questions.solver);
+                known = View::of(self.model, std::slice::from_ref(&self.found));
+                misses = 0;
+            } else {
+                assumed.pop();
+                misses += 1;
+                if misses > MAX_MISSES {
+                    return;
+                }
+            }
+        }
+    }
 }
 
 /// A valuation and some that differ from it in one input.

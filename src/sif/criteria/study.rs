@@ -34,13 +34,21 @@ impl<'s> Study<'s> {
         let model = Model::new(specification, function);
         let faults = faults(&model);
         let allowed = Allowed::of(&model.cone, model.outputs(), limits, false);
-        let pool = Pool::new(&model, &faults, allowed.as_ref(), limits);
         let completion = Completion::new(&model.cone, function, limits);
+        let pool = if completion.contradicts() {
+            Pool::empty(faults.len())
+        } else {
+            Pool::new(&model, &faults, allowed.as_ref(), limits)
+        };
         Self { model, limits: limits.clone(), faults, allowed, pool, completion }
     }
 
     /// The tests by a criterion.
     pub fn plan(&mut self, criterion: Criterion) -> Plan {
+        if self.pool.is_all && self.pool.tests.is_empty() {
+            let note = "no valuation can be: the restrictions contradict each other".to_owned();
+            return self.finished(criterion, Choice { notes: vec![note], is_smallest: true, ..Choice::default() });
+        }
         let choice = match criterion {
             Criterion::All => all(&self.model, self.allowed.as_ref(), true, &self.limits),
             Criterion::AllBoth => all(&self.model, self.allowed.as_ref(), false, &self.limits),
@@ -86,12 +94,14 @@ impl<'s> Study<'s> {
             choice.incomplete = Some(choice.incomplete.map_or(lost.clone(), |reason| format!("{reason}; {lost}")));
         }
         let rest = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
-        let inputs: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
-        let settled = |at: usize| Test {
-            values: specification.settled(&inputs[at]),
+        let mut values: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
+        let order = ordered(&values, &rest);
+        specification.settle_all(&mut values);
+        let test = |at: usize| Test {
+            values: std::mem::take(&mut values[at]),
             purpose: std::mem::take(&mut tests[at].purpose),
         };
-        let tests: Vec<Test> = ordered(&inputs, &rest).into_iter().map(settled).collect();
+        let tests: Vec<Test> = order.into_iter().map(test).collect();
         let values: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
         // Where the tests are too many to be listed, nothing is known of what they would find.
         let is_unlisted = tests.is_empty() && choice.incomplete.is_some();

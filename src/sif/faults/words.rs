@@ -8,12 +8,15 @@ use super::nodes::formula;
 /// Longest text of a formula that is shown as a whole, in characters.
 const LONG: usize = 72;
 
+/// The same for what stands beside that.
+const BESIDE: usize = 30;
+
 /// A fault in words: "`!ACC_Tst` is negated in `F1`: `… & !ACC_Tst & …`".
 #[must_use]
 pub fn described(model: &Model<'_>, fault: &Fault) -> String {
     let at = &model.nodes[fault.node];
     let specification = model.specification;
-    let text = |node: usize| short(&specification.text(&formula(&model.nodes, node)));
+    let text = |node: usize| short(&specification.text(&formula(&model.nodes, node)), LONG);
     let literal = |signal, is_plain: bool| {
         let name = specification.name(signal);
         if is_plain { format!("`{name}`") } else { format!("`!{name}`") }
@@ -41,7 +44,7 @@ pub fn described(model: &Model<'_>, fault: &Fault) -> String {
 #[must_use]
 pub fn named(model: &Model<'_>, node: usize) -> String {
     let this = model.specification.text(&formula(&model.nodes, node));
-    format!("`{}`{}", short(&this), place(model, node))
+    format!("`{}`{}", short(&this, LONG), place(model, node))
 }
 
 /// Where a node is: what it is an operand of, cut down to its neighbours.
@@ -61,7 +64,7 @@ fn place(model: &Model<'_>, node: usize) -> String {
         return format!(" in `{whole}`{several}");
     }
     let near = position.saturating_sub(1)..operands.len().min(position + 2);
-    let mut pieces: Vec<String> = near.clone().map(|at| short(&specification.text(&operands[at]))).collect();
+    let mut pieces: Vec<String> = near.clone().map(|at| short(&specification.text(&operands[at]), BESIDE)).collect();
     if near.start > 0 {
         pieces.insert(0, "…".to_owned());
     }
@@ -79,12 +82,12 @@ fn plain(formula: Formula) -> Formula {
 }
 
 /// A text cut in the middle if it is long.
-fn short(text: &str) -> String {
+fn short(text: &str, long: usize) -> String {
     let count = text.chars().count();
-    if count <= LONG {
+    if count <= long {
         return text.to_owned();
     }
-    let half = LONG / 2 - 2;
+    let half = long / 2 - 2;
     let first: String = text.chars().take(half).collect();
     let last: String = text.chars().skip(count - half).collect();
     format!("{} … {}", first.trim_end(), last.trim_start())

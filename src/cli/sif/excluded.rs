@@ -1,0 +1,70 @@
+//! `petril sif excluded`: what restrictions take away from the tests.
+
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use fixedbitset::FixedBitSet;
+use petril::sif::{self, Excluded, Limits, Specification};
+use petril::witness::{Column, Table};
+
+use super::args::SifExcluded;
+use super::{planned, specification, valuations};
+use crate::cli::console::Console;
+use crate::cli::{Outcome, SUCCESS, progress};
+
+pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
+    progress::listen();
+    let read = specification(&arguments.specification, console)?;
+    let functions = planned::functions(&arguments.function, &read.specification)?;
+    let limits = Limits { stop: Arc::new(progress::is_interrupted), tests: arguments.limit, ..Limits::default() };
+    let (mut texts, mut is_counted) = (Vec::new(), true);
+    for function in functions {
+        let excluded = sif::excluded(&read.specification, function, &limits);
+        is_counted &= excluded.excluded.is_some();
+        texts.push(text(&read.specification, function, &excluded, console.output_width()));
+    }
+    console.print(&texts.join("\n"))?;
+    Ok(if is_counted { SUCCESS } else { ExitCode::from(3) })
+}
+
+/// What is excluded from the tests of one function.
+fn text(specification: &Specification, function: usize, excluded: &Excluded, width: usize) -> String {
+    let name = &specification.functions[function].name;
+    let (Some(triggering), Some(count)) = (&excluded.triggering, &excluded.excluded) else {
+        return format!("{name}: {} valuations, too many to tell which are excluded\n", excluded.valuations);
+    };
+    let all = &excluded.valuations;
+    let mut out =
+        format!("{name}: of {all} valuations, {triggering} make an output TRUE; {count} of these are excluded\n");
+    if excluded.by_restriction.is_empty() {
+        return out;
+    }
+    let heads = ["excludes", "and no other does"].map(Column::right).to_vec();
+    let mut table = Table::new(vec![vec![Column::left("restriction")], heads, vec![Column::left("which says")]]);
+    for (position, its, only) in &excluded.by_restriction {
+        let restriction = &specification.restrictions[*position];
+        table.row(vec![restriction.name.clone(), its.clone(), only.clone(), restriction.text.clone()]);
+    }
+    out += &format!("\n{}\n", table.within(width));
+    match &excluded.listed {
+        Some(listed) => out + &each(specification, excluded, listed).within(width),
+        None => out + "some of these, as cubes\n" + &valuations::cubes(specification, &excluded.cubes),
+    }
+}
+
+/// Each valuation with the restrictions that exclude it.
+fn each(specification: &Specification, excluded: &Excluded, listed: &[(FixedBitSet, Vec<usize>)]) -> Table {
+    let inputs = if excluded.varied.len() <= 24 { excluded.varied.as_slice() } else { &[] };
+    let mut table = valuations::table(specification, inputs, vec![vec![Column::left("excluded by")]]);
+    for (number, (valuation, by)) in listed.iter().enumerate() {
+        // What does not vary is of no interest here.
+        let mut whole = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
+        excluded.varied.iter().for_each(|input| whole.set(input.0, valuation.contains(input.0)));
+        let names: Vec<&str> = by.iter().map(|at| specification.restrictions[*at].name.as_str()).collect();
+        let mut cells = vec![(number + 1).to_string()];
+        cells.extend(valuations::cells(specification, inputs, &whole));
+        cells.push(names.join(", "));
+        table.row(cells);
+    }
+    table
+}

@@ -1,0 +1,253 @@
+//! `petril sif tests`: tests by a criterion or given ones, and which faults they find.
+
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use petril::exchange::sif::{Sheets, html, json, plan_csv};
+use petril::sif::{self, Criterion, Excluded, Limits, Plan, Specification, Study};
+use petril::witness::{Column, Table};
+use rayon::prelude::*;
+
+use super::args::SifTests;
+use super::{Read, planned, specification, valuations};
+use crate::cli::console::Console;
+use crate::cli::report::counted;
+use crate::cli::{Outcome, SUCCESS, output, progress};
+
+/// Of so many functions the tests are printed; of more, only figures.
+const MAX_SHOWN: usize = 5;
+
+/// So many faults that are not found are told one by one.
+const MAX_TOLD: usize = 100;
+
+pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
+    progress::listen();
+    let Read { specification, sources } = specification(&arguments.specification, console)?;
+    let functions = planned::functions(&arguments.function, &specification)?;
+    let limits = Limits { stop: Arc::new(progress::is_interrupted), tests: arguments.limit, ..Limits::default() };
+    if arguments.compare {
+        return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
+    }
+    let plans = match &arguments.tests {
+        Some(path) => planned::read(path, &specification, &functions, console)?,
+        None => functions
+            .par_iter()
+            .map(|&function| sif::plan(&specification, function, arguments.criterion, &limits))
+            .collect(),
+    };
+    let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
+    let excluded: Vec<Excluded> = if arguments.json || arguments.html.is_some() {
+        plans.par_iter().map(|plan| sif::excluded(&specification, plan.function, &limits)).collect()
+    } else {
+        Vec::new()
+    };
+    let sheets = Sheets {
+        specification: &specification,
+        sources: &sources,
+        plans: &plans,
+        origin: origin.as_deref(),
+        excluded: &excluded,
+        run: None,
+    };
+    if let Some(file) = &arguments.html {
+        output::write_text(file, &html::write(&sheets))?;
+    }
+    if let Some(file) = &arguments.csv {
+        output::write_text(file, &plan_csv::write(&sheets))?;
+    }
+    if arguments.json {
+        console.print_json(json::document(&sheets))?;
+    } else if plans.len() <= MAX_SHOWN {
+        let texts: Vec<String> = plans.iter().map(|plan| text(&sheets, plan, console)).collect();
+        console.print(&texts.join("\n"))?;
+    } else {
+        let hint = "\nthe tests of one function: --function NAME\n";
+        console.print(&(figures(&specification, &plans).within(console.output_width()) + hint))?;
+    }
+    let is_all = plans.iter().all(|plan| plan.incomplete.is_none());
+    Ok(if is_all { SUCCESS } else { ExitCode::from(3) })
+}
+
+/// Everything about the tests of one function.
+fn text(sheets: &Sheets<'_>, plan: &Plan, console: &Console) -> String {
+    let specification = sheets.specification;
+    let function = &specification.functions[plan.function];
+    let title = function.title.as_ref().map(|title| format!(" \"{title}\"")).unwrap_or_default();
+    let tests = counted(plan.tests.len(), "test");
+    let how = match (sheets.origin, plan.is_smallest && plan.criterion != Criterion::All) {
+        (Some(file), _) => format!("from {file}"),
+        (None, true) if matches!(plan.criterion, Criterion::Faults | Criterion::Pairs) => {
+            format!("by `{}`, and no fewer would do", plan.criterion.name())
+        }
+        _ => format!("by `{}`", plan.criterion.name()),
+    };
+    let mut out = format!("{}{title}: {tests} {how}\n", function.name);
+    if let Some(reason) = &plan.incomplete {
+        out += &format!("not all: {reason}\n");
+    }
+    if !plan.cubes.is_empty() {
+        out += &format!(
+            "\nsome of what these valuations are, as cubes\n{}",
+            valuations::cubes(specification, &plan.cubes)
+        );
+    }
+    if !plan.tests.is_empty() {
+        out += &format!("\n{}", listed(specification, plan).within(console.output_width()));
+    }
+    for note in &plan.notes {
+        out += &format!("\n{note}");
+    }
+    out += if plan.notes.is_empty() { "" } else { "\n" };
+    if !plan.coverage.classes.is_empty() {
+        out += &format!("\n{}", classes(plan).within(console.output_width()));
+    }
+    out + &missed(specification, plan)
+}
+
+/// The tests, one on each line.
+fn listed(specification: &Specification, plan: &Plan) -> Table {
+    let values: Vec<_> = plan.tests.iter().map(|test| &test.values).collect();
+    let inputs = valuations::columns(specification, &plan.varied, &values);
+    let outputs = plan.touched.iter().map(|output| Column::right(specification.name(*output))).collect();
+    let mut table = valuations::table(specification, &inputs, vec![outputs]);
+    for (number, test) in plan.tests.iter().enumerate() {
+        let mut cells = vec![(number + 1).to_string()];
+        cells.extend(valuations::cells(specification, &inputs, &test.values));
+        cells.extend(plan.touched.iter().map(|output| valuations::bit(test.values.contains(output.0))));
+        table.row(cells);
+    }
+    table
+}
+
+/// Faults that there are, that nothing shows, that tests find and that they miss.
+#[derive(Clone, Copy, Default)]
+struct Figures {
+    faults: usize,
+    equivalent: usize,
+    undecided: usize,
+    killed: usize,
+}
+
+impl Figures {
+    const HEADS: [&str; 5] = ["faults", "never seen", "undecided", "found", "missed"];
+
+    fn of(plan: &Plan) -> Self {
+        plan.coverage.classes.iter().fold(Self::default(), |sum, class| {
+            sum.plus(Self {
+                faults: class.faults,
+                equivalent: class.equivalent,
+                undecided: class.undecided,
+                killed: class.killed,
+            })
+        })
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            faults: self.faults + other.faults,
+            equivalent: self.equivalent + other.equivalent,
+            undecided: self.undecided + other.undecided,
+            killed: self.killed + other.killed,
+        }
+    }
+
+    fn cells(self) -> impl Iterator<Item = String> {
+        let missed = self.faults - self.equivalent - self.undecided - self.killed;
+        [self.faults, self.equivalent, self.undecided, self.killed, missed].map(|count| count.to_string()).into_iter()
+    }
+}
+
+/// A line for each class of faults, and one for all.
+fn classes(plan: &Plan) -> Table {
+    let mut table = Table::new(vec![vec![Column::left("class of faults")], Figures::HEADS.map(Column::right).to_vec()]);
+    for class in plan.coverage.classes.iter().filter(|class| class.faults > 0) {
+        let figures = Figures {
+            faults: class.faults,
+            equivalent: class.equivalent,
+            undecided: class.undecided,
+            killed: class.killed,
+        };
+        table.row(std::iter::once(class.class.to_owned()).chain(figures.cells()).collect());
+    }
+    table.row(std::iter::once("all".to_owned()).chain(Figures::of(plan).cells()).collect());
+    table
+}
+
+/// The faults that are not found, those with the same reason together.
+fn missed(specification: &Specification, plan: &Plan) -> String {
+    let mut reasons: Vec<&str> = Vec::new();
+    for missed in &plan.coverage.missed {
+        if !reasons.contains(&missed.why.as_str()) {
+            reasons.push(&missed.why);
+        }
+    }
+    let mut out = String::new();
+    let mut left = MAX_TOLD;
+    for reason in reasons {
+        let of: Vec<_> = plan.coverage.missed.iter().filter(|missed| missed.why == reason).collect();
+        out += &format!("\nmissed: {} — {reason}\n", counted(of.len(), "fault"));
+        for missed in of.iter().take(left) {
+            let by = plan.varied.iter().map(|input| valuations::bit(missed.shown_by.contains(input.0)));
+            let by: String = by.collect();
+            let shown = if plan.varied.len() <= 24 { format!("; seen with {by}") } else { String::new() };
+            out += &format!("  {}: {}{shown}\n", missed.class, missed.fault);
+        }
+        if of.len() > left {
+            out += &format!("  … and {} more\n", of.len() - left);
+        }
+        left = left.saturating_sub(of.len());
+    }
+    if !out.is_empty() && plan.varied.len() <= 24 {
+        let names: Vec<&str> = plan.varied.iter().map(|input| specification.name(*input)).collect();
+        out += &format!("\nthe digits are {}\n", names.join(", "));
+    }
+    out
+}
+
+/// A line for each function.
+fn figures(specification: &Specification, plans: &[Plan]) -> Table {
+    let mut heads = vec![Column::right("tests")];
+    heads.extend(Figures::HEADS.map(Column::right));
+    let mut table = Table::new(vec![vec![Column::left("function")], heads, vec![Column::left("not all")]]);
+    let (mut tests, mut all) = (0, Figures::default());
+    for plan in plans {
+        let figures = Figures::of(plan);
+        (tests, all) = (tests + plan.tests.len(), all.plus(figures));
+        let mut cells = vec![specification.functions[plan.function].name.clone(), plan.tests.len().to_string()];
+        cells.extend(figures.cells());
+        cells.push(plan.incomplete.clone().unwrap_or_default());
+        table.row(cells);
+    }
+    let mut cells = vec!["all".to_owned(), tests.to_string()];
+    cells.extend(all.cells());
+    cells.push(String::new());
+    table.row(cells);
+    table
+}
+
+/// A line for each criterion, of all functions together.
+fn compared(specification: &Specification, functions: &[usize], limits: &Limits) -> Table {
+    let made: Vec<Vec<Plan>> = functions
+        .par_iter()
+        .map(|&function| {
+            let mut study = Study::new(specification, function, limits);
+            Criterion::ALL.into_iter().map(|criterion| study.plan(criterion)).collect()
+        })
+        .collect();
+    let mut heads = vec![Column::right("tests")];
+    heads.extend(Figures::HEADS.map(Column::right));
+    let last = vec![Column::right("functions"), Column::right("without list")];
+    let mut table = Table::new(vec![vec![Column::left("criterion")], heads, last]);
+    for (position, criterion) in Criterion::ALL.into_iter().enumerate() {
+        let plans = || made.iter().map(|plans| &plans[position]);
+        let (listed, open): (Vec<&Plan>, Vec<&Plan>) =
+            plans().partition(|plan| plan.incomplete.is_none() || !plan.tests.is_empty());
+        let tests: usize = listed.iter().map(|plan| plan.tests.len()).sum();
+        let figures = listed.iter().fold(Figures::default(), |sum, plan| sum.plus(Figures::of(plan)));
+        let mut cells = vec![criterion.name().to_owned(), tests.to_string()];
+        cells.extend(figures.cells());
+        cells.extend([listed.len().to_string(), open.len().to_string()]);
+        table.row(cells);
+    }
+    table
+}
