@@ -2,6 +2,7 @@
 
 pub mod args;
 mod check;
+mod import;
 mod planned;
 mod prove;
 mod requirements;
@@ -21,6 +22,7 @@ use args::SifVerb;
 pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
     match verb {
         SifVerb::Check(arguments) => check::run(arguments, console),
+        SifVerb::Import(arguments) => import::run(arguments, console),
         SifVerb::Prove(arguments) => prove::run(arguments, console),
         SifVerb::Requirements(arguments) => requirements::run(arguments, console),
         SifVerb::Run(arguments) => run::run(arguments, console),
