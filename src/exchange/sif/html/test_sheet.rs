@@ -1,7 +1,7 @@
 //! The tests of a function: inputs to set, outputs to expect, boxes to tick.
 
 use super::data_sheet::time;
-use super::markup::{counted, escaped, tick};
+use super::markup::{counted, escaped, tick, ticked};
 use super::matrix::Matrix;
 use super::{delay, latch};
 use crate::exchange::sif::Sheets;
@@ -25,11 +25,12 @@ pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {
     }
     let (inputs, outputs) = matrix.widths();
     out += &format!(
-        "<div class=\"scroll\"><table class=\"tests\">\n<thead>\n<tr><th rowspan=\"2\" scope=\"col\">No.</th>\
+        "<div class=\"scroll\"><table class=\"tests\">\n<thead>\n<tr class=\"running\"><th colspan=\"{}\">{name}</th></tr>\n<tr><th rowspan=\"2\" scope=\"col\">No.</th>\
          <th colspan=\"{inputs}\" class=\"begins group\">inputs to set</th>\
          <th colspan=\"{outputs}\" class=\"begins group\">outputs to expect</th>\
          <th rowspan=\"2\" scope=\"col\" class=\"begins ticks\">passed</th><th rowspan=\"2\" scope=\"col\" class=\"ticks\">failed</th>\
          <th rowspan=\"2\" scope=\"col\" class=\"begins remark\">Remark</th></tr>\n<tr>{}</tr>\n</thead>\n",
+        inputs + outputs + 4,
         matrix.heads()
     );
     for (number, test) in plan.tests.iter().enumerate() {
@@ -43,7 +44,7 @@ pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {
         let purpose = if test.purpose.is_empty() {
             String::new()
         } else {
-            format!("<p class=\"purpose\">{}</p>", escaped(&test.purpose.join("; ")))
+            format!("<p class=\"purpose\">{}</p>", ticked(&test.purpose.join("; ")))
         };
         out += &format!(
             "<tbody{class}><tr><th scope=\"row\">{}</th>{}<td class=\"begins ticks\">{}</td><td class=\"ticks\">{}</td>\
@@ -94,5 +95,6 @@ fn notes(sheets: &Sheets<'_>, plan: &Plan, matrix: &Matrix<'_>) -> String {
     }
     let incomplete =
         plan.incomplete.as_ref().map(|why| format!("<p class=\"doubt\">Not all tests: {}</p>\n", escaped(why)));
-    format!("<p class=\"hint\">{}</p>\n{}", notes.join(" "), incomplete.unwrap_or_default())
+    let said: String = plan.notes.iter().map(|note| format!("<p class=\"hint\">{}</p>\n", ticked(note))).collect();
+    format!("<p class=\"hint\">{}</p>\n{}{said}", notes.join(" "), incomplete.unwrap_or_default())
 }
