@@ -166,6 +166,18 @@ fn latched_outputs_are_used_by_others() {
     assert!(matches!(&late.answers[1].outcome, Outcome::Refuted(scans) if scans.len() == 1));
 }
 
+/// What is proved of one output where a restriction is kept says nothing about runs that do not keep it.
+#[test]
+fn proofs_are_used_only_where_they_hold() {
+    let text = "function F { interface { input a; input b; output y; } formal { y = a; restriction S: never b; } }
+                function G { interface { input c; output z; } formal { z = c; } }";
+    // `m` says that `y` was not `a`, which only a scan with b does; then `z` is wrong in the next one.
+    let late = program("a, b, c", "y, z", "VAR m : BOOL; END_VAR", "LD c\nXOR m\nST z\nLD a\nOR b\nST y\nXOR a\nST m");
+    let told = proof_with(text, &late, Tolerated::default(), &Options { tries: 0, ..Options::default() });
+    assert!(matches!(told.answers[0].outcome, Outcome::Proved { .. }), "{told:#?}");
+    assert!(matches!(&told.answers[1].outcome, Outcome::Refuted(scans) if scans.len() == 2), "{told:#?}");
+}
+
 #[test]
 fn what_is_delayed_never_comes_alone() {
     let text = function(" delayed T#1s", "y = a & b;");
