@@ -33,6 +33,8 @@ pub fn requirements(specification: &Specification) -> String {
             let signal = specification.signal(output);
             let Kind::Defined { formula, latched, delayed, .. } = &signal.kind else { continue };
             let (name, formula) = (variable(signal), written(formula));
+            // Nothing is remembered from before the first scan, whatever the variable begins with.
+            let before = format!("pre({name}) & !at first scan");
             let is_one = function.outputs.len() == 1;
             let title = if is_one { function.title.as_deref() } else { signal.description.as_deref() };
             let mut require = |name: String, conclusion: String| {
@@ -48,12 +50,12 @@ pub fn requirements(specification: &Specification) -> String {
                 (None, None) => require(signal.name.clone(), format!("{name} <-> ({formula})")),
                 (Some(reset), None) => {
                     let reset = written(reset);
-                    require(signal.name.clone(), format!("{name} <-> ({formula}) | pre({name}) & !({reset})"));
+                    require(signal.name.clone(), format!("{name} <-> ({formula}) | {before} & !({reset})"));
                 }
                 (latched, Some(delay)) => {
                     let only = match latched {
                         None => format!("{name} -> ({formula})"),
-                        Some(_) => format!("{name} -> ({formula}) | pre({name})"),
+                        Some(_) => format!("{name} -> ({formula}) | {before}"),
                     };
                     require(format!("{}_only_if", signal.name), only);
                     require(format!("{}_in_time", signal.name), format!("held({formula}, T#{delay}ms) -> {name}"));

@@ -74,10 +74,10 @@ pub fn frame(title: &str, rows: &[Vec<String>]) -> Result<String, Vec<String>> {
     let mut errors = Vec::new();
     for (number, row) in rows.iter().enumerate().skip(head + 1) {
         let cell = |kind: usize| columns[kind].and_then(|at| row.get(at)).map_or("", String::as_str);
-        if !cell(0).is_empty() {
-            if let Err(message) = frame.add(&cell) {
-                errors.push(format!("row {}: {message}", number + 1));
-            }
+        if !cell(0).is_empty()
+            && let Err(message) = frame.add(&cell)
+        {
+            errors.push(format!("row {}: {message}", number + 1));
         }
     }
     if errors.is_empty() { Ok(frame.text(title)) } else { Err(errors) }
