@@ -28,8 +28,12 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     if arguments.compare {
         return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
     }
-    let plans = match &arguments.tests {
-        Some(path) => planned::read(path, &specification, &functions, console)?,
+    let plans: Vec<Plan> = match &arguments.tests {
+        Some(path) => {
+            let mut plans = planned::read(path, &specification, &functions, console)?;
+            plans.par_iter_mut().for_each(|plan| judge(&specification, plan, &limits));
+            plans
+        }
         None => functions
             .par_iter()
             .map(|&function| sif::plan(&specification, function, arguments.criterion, &limits))
@@ -68,6 +72,12 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     Ok(if is_all { SUCCESS } else { ExitCode::from(3) })
 }
 
+/// Finds out which faults given tests find.
+fn judge(specification: &Specification, plan: &mut Plan, limits: &Limits) {
+    let tests: Vec<_> = plan.tests.iter().map(|test| test.values.clone()).collect();
+    plan.coverage = sif::coverage_of(specification, plan.function, &tests, limits);
+}
+
 /// Everything about the tests of one function.
 fn text(sheets: &Sheets<'_>, plan: &Plan, console: &Console) -> String {
     let specification = sheets.specification;
@@ -94,10 +104,10 @@ fn text(sheets: &Sheets<'_>, plan: &Plan, console: &Console) -> String {
     if !plan.tests.is_empty() {
         out += &format!("\n{}", listed(specification, plan).within(console.output_width()));
     }
-    for note in &plan.notes {
-        out += &format!("\n{note}");
+    out += &purposes(plan);
+    if !plan.notes.is_empty() {
+        out += &format!("\n{}\n", plan.notes.join("\n"));
     }
-    out += if plan.notes.is_empty() { "" } else { "\n" };
     if !plan.coverage.classes.is_empty() {
         out += &format!("\n{}", classes(plan).within(console.output_width()));
     }
@@ -117,6 +127,18 @@ fn listed(specification: &Specification, plan: &Plan) -> Table {
         table.row(cells);
     }
     table
+}
+
+/// What each test is for, where that is known.
+fn purposes(plan: &Plan) -> String {
+    let mut out = String::new();
+    for (number, test) in plan.tests.iter().enumerate() {
+        for (position, purpose) in test.purpose.iter().enumerate() {
+            let number = if position == 0 { (number + 1).to_string() } else { String::new() };
+            out += &format!("{number:>4}   {purpose}\n");
+        }
+    }
+    if out.is_empty() { out } else { format!("\n{out}") }
 }
 
 /// Faults that there are, that nothing shows, that tests find and that they miss.

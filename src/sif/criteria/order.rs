@@ -7,12 +7,15 @@ use crate::simulate::Lots;
 /// Most tests that are put in order by exchanging pieces; more are only taken each after its nearest.
 const MAX_EXCHANGED: usize = 1000;
 
+/// Most tests of which pieces are moved, too.
+const MAX_SHIFTED: usize = 250;
+
 /// Most passes over all pieces.
 const MAX_PASSES: usize = 8;
 
 /// Most attempts to find a better order by chance, and most pairs of tests looked at for that.
 const MAX_ROUNDS: usize = 60;
-const MAX_WORK: usize = 300_000;
+const MAX_WORK: usize = 100_000;
 
 /// Longest piece that is moved elsewhere.
 const MAX_MOVED: usize = 3;
@@ -61,7 +64,8 @@ pub fn ordered(tests: &[FixedBitSet], rest: &FixedBitSet) -> Vec<usize> {
 fn exchange(order: &mut [usize], distance: impl Fn(usize, usize) -> u32 + Copy) {
     for _ in 0..MAX_PASSES {
         let is_turned = turn(order, distance);
-        if !shift(order, distance) && !is_turned {
+        let is_shifted = order.len() <= MAX_SHIFTED && shift(order, distance);
+        if !is_shifted && !is_turned {
             return;
         }
     }

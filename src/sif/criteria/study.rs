@@ -2,7 +2,7 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::super::faults::{Fault, Model, faults};
+use super::super::faults::{Fault, Model, described, faults};
 use super::super::formula::SignalId;
 use super::super::plan::{Coverage, Criterion, Plan, Test};
 use super::super::specification::Specification;
@@ -70,12 +70,28 @@ impl<'s> Study<'s> {
         let undecided = self.pool.sights.iter().filter(|sight| **sight == Sight::Undecided).count();
         let incomplete = (undecided > 0)
             .then(|| format!("of {undecided} faults it was not decided within the limits whether they can be seen"));
+        let purposes = found.chosen.iter().map(|test| self.alone(*test, &found.chosen)).collect();
         Choice {
+            purposes,
             tests: found.chosen.iter().map(|test| self.pool.tests[*test].clone()).collect(),
             is_smallest: found.is_smallest && self.pool.is_all,
             incomplete,
             ..Choice::default()
         }
+    }
+
+    /// What only one of the chosen tests shows.
+    fn alone(&self, test: usize, chosen: &[usize]) -> Vec<String> {
+        let shows =
+            |row: &&FixedBitSet| row.contains(test) && chosen.iter().filter(|at| row.contains(**at)).count() == 1;
+        let mut alone = self.faults.iter().zip(&self.pool.rows).filter(|(_, row)| shows(row)).map(|(fault, _)| fault);
+        let Some(first) = alone.next() else { return Vec::new() };
+        let more = match alone.count() {
+            0 => String::new(),
+            1 => ", and one fault more".to_owned(),
+            more => format!(", and {more} faults more"),
+        };
+        vec![format!("alone finds {}: {}{more}", first.class.name(), described(&self.model, first))]
     }
 
     /// Whole tests in their order, with what they find.

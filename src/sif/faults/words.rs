@@ -37,7 +37,10 @@ pub fn described(model: &Model<'_>, fault: &Fault) -> String {
         Change::With(signal, is_plain) => format!("{} is a further operand of `{this}`", literal(signal, is_plain)),
         Change::Literal(signal, is_plain) => format!("{} stands for `{this}`", literal(signal, is_plain)),
     };
-    format!("{what}{}", place(model, fault.node))
+    match fault.change {
+        Change::Negated | Change::Stuck(_) | Change::Literal(..) => format!("{what}{}", place(model, fault.node)),
+        _ => format!("{what}{}", equation(model, fault.node)),
+    }
 }
 
 /// A condition with its place: "`!ACC_Tst` in `… & !ACC_Tst & …`".
@@ -51,8 +54,7 @@ pub fn named(model: &Model<'_>, node: usize) -> String {
 fn place(model: &Model<'_>, node: usize) -> String {
     let at = &model.nodes[node];
     let specification = model.specification;
-    let equation = specification.name(model.equations[at.equation].signal);
-    let several = if model.equations.len() > 1 { format!(" of `{equation}`") } else { String::new() };
+    let several = equation(model, node);
     let Some(parent) = at.parent else { return several };
     let Formula::Gate(operator, operands) = plain(formula(&model.nodes, parent)) else { return several };
     let position = match &model.nodes[parent].what {
@@ -74,6 +76,16 @@ fn place(model: &Model<'_>, node: usize) -> String {
     format!(" in `{}`{several}", pieces.join(&format!(" {} ", operator.symbol())))
 }
 
+/// Which equation a node is part of, if there are several.
+fn equation(model: &Model<'_>, node: usize) -> String {
+    let equation = &model.equations[model.nodes[node].equation];
+    if model.equations.len() > 1 {
+        format!(" of `{}`", model.specification.name(equation.signal))
+    } else {
+        String::new()
+    }
+}
+
 fn plain(formula: Formula) -> Formula {
     match formula {
         Formula::Not(inner) => *inner,
@@ -81,14 +93,18 @@ fn plain(formula: Formula) -> Formula {
     }
 }
 
-/// A text cut in the middle if it is long.
+/// A text with only its first and last words if it is long.
 fn short(text: &str, long: usize) -> String {
-    let count = text.chars().count();
-    if count <= long {
+    let length = |text: &str| text.chars().count();
+    if length(text) <= long {
         return text.to_owned();
     }
-    let half = long / 2 - 2;
-    let first: String = text.chars().take(half).collect();
-    let last: String = text.chars().skip(count - half).collect();
-    format!("{} … {}", first.trim_end(), last.trim_start())
+    let words: Vec<&str> = text.split(' ').collect();
+    let fits = |words: &mut dyn Iterator<Item = &&str>| {
+        let mut used = 0;
+        words.take_while(|word| (used += length(word) + 1, used <= long / 2).1).count()
+    };
+    let (first, last) = (fits(&mut words.iter()), fits(&mut words.iter().rev()));
+    let (first, last) = (&words[..first], &words[words.len() - last..]);
+    [first, &["…"], last].concat().join(" ")
 }
