@@ -26,9 +26,10 @@ fn program(text: &str) -> FlatProgram {
 fn proved(specification: &Specification, program: &FlatProgram) -> Vec<(String, Verdict)> {
     let subject = Subject::new(specification, program, Tolerated::default(), &[]).unwrap();
     let proof = prove(&subject, &Options::default());
-    let verdicts = proof.answers.iter().map(|answer| {
-        (specification.name(answer.claim.signal).to_owned(), answer.outcome.verdict())
-    });
+    let verdicts = proof
+        .answers
+        .iter()
+        .map(|answer| (specification.name(answer.claim.signal).to_owned(), answer.outcome.verdict()));
     verdicts.collect()
 }
 
@@ -67,7 +68,8 @@ fn mutant(program: &str, number: usize) -> String {
         _ => "AND(",
     };
     let changed = format!("        {swapped} {}", words[1..].join(" "));
-    let text: Vec<&str> = (0..lines.len()).map(|line| if line == at { changed.as_str() } else { lines[line] }).collect();
+    let text: Vec<&str> =
+        (0..lines.len()).map(|line| if line == at { changed.as_str() } else { lines[line] }).collect();
     text.join("\n")
 }
 
