@@ -132,8 +132,11 @@ fn gate(part: &Formula, names: &[SignalId], around: Context<'_>, found: &mut dyn
     }
 }
 
+/// Puts something into a place of a formula.
+type Put = Box<dyn Fn(Formula) -> Formula>;
+
 /// The occurrences of literals in a formula: each as what makes of a constant the formula with this in its place.
-pub fn occurrences(formula: &Formula) -> Vec<(Formula, Box<dyn Fn(Formula) -> Formula>)> {
+pub fn occurrences(formula: &Formula) -> Vec<(Formula, Put)> {
     fn walk(part: &Formula, found: &mut Vec<(Formula, Vec<usize>)>, path: &mut Vec<usize>) {
         if is_literal(part) {
             found.push((part.clone(), path.clone()));
@@ -175,7 +178,7 @@ pub fn occurrences(formula: &Formula) -> Vec<(Formula, Box<dyn Fn(Formula) -> Fo
         .map(|(literal, path)| {
             let whole = whole.clone();
             let put = move |with: Formula| replaced(&whole, &path, &with);
-            (literal, Box::new(put) as Box<dyn Fn(Formula) -> Formula>)
+            (literal, Box::new(put) as Put)
         })
         .collect()
 }

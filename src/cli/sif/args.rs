@@ -31,10 +31,8 @@ impl SifVerb {
     pub fn wants_json(&self) -> bool {
         match self {
             Self::Check(arguments) => arguments.json,
-            Self::Excluded(_) => false,
-            Self::Import(_) => false,
             Self::Prove(arguments) => arguments.json,
-            Self::Requirements(_) => false,
+            Self::Excluded(_) | Self::Import(_) | Self::Requirements(_) => false,
             Self::Run(arguments) => arguments.json,
             Self::Tests(arguments) => arguments.json,
         }

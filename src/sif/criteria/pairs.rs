@@ -72,6 +72,9 @@ fn note(all: usize, impossible: usize) -> Vec<String> {
     vec![format!("{all} pairs of values{cannot}")]
 }
 
+/// An input, by its position among those that vary, with a value.
+type Value = (usize, bool);
+
 /// Which pairs of values have not been seen yet.
 struct Open {
     inputs: usize,
@@ -89,22 +92,22 @@ impl Open {
         Self { inputs, open }
     }
 
-    fn at(&self, (a, x): (usize, bool), (b, y): (usize, bool)) -> usize {
+    fn at(&self, (a, x): Value, (b, y): Value) -> usize {
         (a * self.inputs + b) * 4 + 2 * usize::from(x) + usize::from(y)
     }
 
-    fn is_open(&self, a: (usize, bool), b: (usize, bool)) -> bool {
+    fn is_open(&self, a: Value, b: Value) -> bool {
         self.open.contains(self.at(a, b))
     }
 
     /// Both ways round.
-    fn close(&mut self, a: (usize, bool), b: (usize, bool)) {
+    fn close(&mut self, a: Value, b: Value) {
         let places = [self.at(a, b), self.at(b, a)];
         places.into_iter().for_each(|place| self.open.set(place, false));
     }
 
     /// The first pair that is open, from a place on.
-    fn next(&self, from: usize) -> Option<(usize, (usize, bool), (usize, bool))> {
+    fn next(&self, from: usize) -> Option<(usize, Value, Value)> {
         let mut place = from;
         while place < self.open.len() {
             if self.open.contains(place) {
@@ -117,7 +120,7 @@ impl Open {
     }
 
     /// How many open pairs a value makes with values that are set.
-    fn gain(&self, value: (usize, bool), set: &[(usize, bool)]) -> usize {
+    fn gain(&self, value: Value, set: &[Value]) -> usize {
         set.iter().filter(|other| self.is_open(value, **other)).count()
     }
 }
@@ -128,7 +131,7 @@ fn built(model: &Model<'_>, limits: &Limits) -> Choice {
     let mut builder = Builder::new(model, limits);
     let mut open = Open::new(inputs.len());
     let (mut impossible, mut undecided) = (0, 0);
-    let mut found: Vec<Vec<(usize, bool)>> = Vec::new();
+    let mut found: Vec<Vec<Value>> = Vec::new();
     let mut from = 0;
     while let Some((place, a, b)) = open.next(from) {
         from = place;
@@ -136,7 +139,7 @@ fn built(model: &Model<'_>, limits: &Limits) -> Choice {
             undecided += open.open.count_ones(..) / 2;
             break;
         }
-        let mut best: Option<(usize, Vec<(usize, bool)>)> = None;
+        let mut best: Option<(usize, Vec<Value>)> = None;
         let mut answer = Answer::Satisfiable;
         for _ in 0..CANDIDATES {
             match builder.build(a, b, &open) {
@@ -166,7 +169,7 @@ fn built(model: &Model<'_>, limits: &Limits) -> Choice {
         }
     }
     let all = inputs.len() * inputs.len().saturating_sub(1) * 2;
-    let valuation = |test: &Vec<(usize, bool)>| {
+    let valuation = |test: &Vec<Value>| {
         model.specification.valuation(test.iter().filter(|(_, value)| *value).map(|(at, _)| inputs[*at]))
     };
     Choice {
@@ -192,7 +195,7 @@ struct Part {
     literals: Vec<(usize, Literal)>,
     assumed: Vec<Literal>,
     /// Values that can be beside those that are set.
-    model: Vec<(usize, bool)>,
+    model: Vec<Value>,
 }
 
 impl Part {
@@ -207,12 +210,12 @@ impl Part {
         Self { questions, literals, assumed: Vec::new(), model: Vec::new() }
     }
 
-    fn literal(&self, (at, value): (usize, bool)) -> Option<Literal> {
+    fn literal(&self, (at, value): Value) -> Option<Literal> {
         let (_, literal) = self.literals.iter().find(|(other, _)| *other == at)?;
         Some(if value { *literal } else { !*literal })
     }
 
-    fn holds(&self, value: (usize, bool)) -> bool {
+    fn holds(&self, value: Value) -> bool {
         self.model.contains(&value)
     }
 
@@ -246,7 +249,7 @@ impl Builder {
     }
 
     /// A test with these two values.
-    fn build(&mut self, a: (usize, bool), b: (usize, bool), open: &Open) -> Result<Vec<(usize, bool)>, Answer> {
+    fn build(&mut self, a: Value, b: Value, open: &Open) -> Result<Vec<Value>, Answer> {
         for part in &mut self.parts {
             let wanted = [a, b].into_iter().filter_map(|value| part.literal(value)).collect();
             part.assumed = wanted;
