@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
 use petril::flat::FlatProgram;
-use petril::sif::{Fate, Hunt, Located, Mutant, Plan, PlanRun, Runner, Specification, Start, hunt, mutants};
+use petril::sif::{Ending, Fate, Hunt, Located, Mutant, Plan, PlanRun, Runner, Specification, Start, hunt, mutants};
 use petril::witness::{Column, Table};
 
 use super::args::SifRun;
@@ -33,7 +33,11 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     let runner = Runner::new(&specification, &flat, arguments.meaning.tolerated(), start, &plans);
     let runner = runner.map_err(|found| unbound(&found, &sources, console))?;
     let results = runner.run(&plans);
-    let found = arguments.mutants.then(|| {
+    let is_passed = results.iter().flat_map(|run| &run.tests).all(|test| test.ending == Ending::Passed);
+    if arguments.mutants && !is_passed {
+        console.message("note: faults of a program that does not pass its tests are not looked for\n");
+    }
+    let found = (arguments.mutants && is_passed).then(|| {
         let decide = |program: &FlatProgram| decide(&specification, program, &plans, arguments);
         hunt(&runner, &plans, mutants(&flat, &source), &decide)
     });
@@ -66,8 +70,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     } else {
         console.print(&text(&sheets, &ran, console))?;
     }
-    let [_, failed, errors] = ran.counts();
-    Ok(if failed + errors == 0 { SUCCESS } else { ExitCode::from(1) })
+    Ok(if is_passed { SUCCESS } else { ExitCode::from(1) })
 }
 
 /// What the program with a fault is that passes all tests.

@@ -1,7 +1,7 @@
 //! The data sheet of a function, in the three sections of the seed paper's template.
 
 use super::markup::{code, escaped, row, table};
-use super::{delay, latch, once, restrictions};
+use super::{delay, latch, once, paper, restrictions};
 use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::truth;
 use crate::sif::{Binding, Kind, Plan, SignalId, Specification};
@@ -53,6 +53,8 @@ fn capital(word: &str) -> String {
 fn interface(specification: &Specification, plan: &Plan) -> String {
     let function = &specification.functions[plan.function];
     let inputs = once(function.inputs.iter().chain(&plan.varied).copied());
+    // Without this column, what a signal is in the program has its name.
+    let is_bound = inputs.iter().chain(&function.outputs).any(|id| specification.signal(*id).binding.is_some());
     let line = |kind: &str, id: SignalId| {
         let signal = specification.signal(id);
         let bound = match &signal.binding {
@@ -70,12 +72,25 @@ fn interface(specification: &Specification, plan: &Plan) -> String {
             }
         };
         let description = escaped(signal.description.as_deref().unwrap_or_default());
-        row([kind.to_owned(), code(&signal.name), description, bound, escaped(&more)])
+        let mut cells = vec![kind.to_owned(), code(&signal.name), description, bound, escaped(&more)];
+        if !is_bound {
+            cells.remove(3);
+        }
+        row(cells)
     };
     let rows: Vec<String> = inputs.iter().map(|id| line("input", *id)).collect();
     let outputs = function.outputs.iter().map(|id| line("output", *id));
-    let heads = ["", "Name", "What it is", "In the program", "Notes"];
+    let mut heads = vec!["", "Name", "What it is", "In the program", "Notes"];
+    if !is_bound {
+        heads.remove(3);
+    }
     format!("<h3>2 Interface</h3>\n{}", table("plain interface", &heads, rows.into_iter().chain(outputs)))
+}
+
+/// A line with the blanks at its beginning.
+fn indented(line: &str) -> String {
+    let blanks = line.len() - line.trim_start().len();
+    " ".repeat(blanks) + &escaped(line)
 }
 
 /// A time as people read it.
@@ -89,8 +104,9 @@ fn formal(specification: &Specification, function: usize) -> String {
     let equation = |id: &SignalId| {
         let name = specification.name(*id);
         let name = name.strip_prefix(&prefix).unwrap_or(name);
-        let formula = specification.definition(*id).map(|formula| specification.text(formula)).unwrap_or_default();
-        format!("<p class=\"formula\"><code>{} = {}</code></p>\n", escaped(name), escaped(&formula))
+        let equation = specification.definition(*id).map(|formula| paper::equation(specification, name, formula));
+        let lines: Vec<String> = equation.iter().flat_map(|text| text.split('\n')).map(indented).collect();
+        format!("<p class=\"formula\"><code>{}</code></p>\n", lines.join("\n"))
     };
     let equations: String = own.equations.iter().map(equation).collect();
     let rows: Vec<String> = restrictions(specification, function)

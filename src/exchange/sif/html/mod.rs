@@ -10,6 +10,7 @@ mod faults;
 mod left_out;
 mod markup;
 mod matrix;
+mod paper;
 mod test_sheet;
 
 use std::collections::BTreeSet;

@@ -25,11 +25,12 @@ pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {
     }
     let (inputs, outputs) = matrix.widths();
     out += &format!(
-        "<div class=\"scroll\"><table class=\"tests\">\n<thead>\n<tr><th rowspan=\"2\" scope=\"col\">No.</th>\
+        "<div class=\"scroll\"><table class=\"tests\">\n<thead>\n<tr class=\"running\"><th colspan=\"{}\">{name}</th></tr>\n<tr><th rowspan=\"2\" scope=\"col\">No.</th>\
          <th colspan=\"{inputs}\" class=\"begins group\">inputs to set</th>\
          <th colspan=\"{outputs}\" class=\"begins group\">outputs to expect</th>\
          <th rowspan=\"2\" scope=\"col\" class=\"begins ticks\">passed</th><th rowspan=\"2\" scope=\"col\" class=\"ticks\">failed</th>\
          <th rowspan=\"2\" scope=\"col\" class=\"begins remark\">Remark</th></tr>\n<tr>{}</tr>\n</thead>\n",
+        inputs + outputs + 4,
         matrix.heads()
     );
     for (number, test) in plan.tests.iter().enumerate() {
