@@ -43,6 +43,9 @@ fn plan(specification: &Specification, function: usize, tests: &[&[&str]]) -> Pl
         touched: specification.outputs().collect(),
         tests: tests.iter().map(test).collect(),
         incomplete: None,
+        notes: Vec::new(),
+        is_smallest: false,
+        cubes: Vec::new(),
         coverage: Coverage::default(),
     }
 }

@@ -1,11 +1,14 @@
 //! The tests of some functions: made by a criterion, or read from a table.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use petril::diagnostic::nearest;
 use petril::exchange::sif::plan_csv;
-use petril::sif::{self, Criterion, Excluded, Limits, Plan, Specification};
+use petril::sif::{Criterion, Excluded, Limits, Plan, Specification, coverage_of, excluded, plan};
+use rayon::prelude::*;
 
-use crate::cli::Failure;
+use crate::cli::{Failure, progress};
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
 
@@ -18,8 +21,9 @@ pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<
     let found = names.iter().map(|name| {
         let position = known().position(|function| function.name.eq_ignore_ascii_case(name));
         position.ok_or_else(|| {
-            let names: Vec<&str> = known().map(|function| function.name.as_str()).take(20).collect();
-            Failure::Message(format!("there is no function `{name}`; there are {}", names.join(", ")))
+            let near = nearest(name, known().map(|function| function.name.as_str()));
+            let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+            Failure::Message(format!("the specification has no function `{name}`{near}"))
         })
     });
     found.collect()
@@ -27,14 +31,16 @@ pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<
 
 /// The tests that a criterion chooses.
 pub fn made(specification: &Specification, functions: &[usize], criterion: Criterion) -> Vec<Plan> {
-    let limits = Limits::default();
-    functions.iter().map(|&function| sif::plan(specification, function, criterion, &limits)).collect()
+    functions.par_iter().map(|&function| plan(specification, function, criterion, &limits())).collect()
 }
 
-/// What is left out.
-pub fn excluded(specification: &Specification, functions: &[usize]) -> Vec<Excluded> {
-    let limits = Limits::default();
-    functions.iter().map(|&function| sif::excluded(specification, function, &limits)).collect()
+/// What is left out of these plans.
+pub fn left_out(specification: &Specification, plans: &[Plan]) -> Vec<Excluded> {
+    plans.par_iter().map(|plan| excluded(specification, plan.function, &limits())).collect()
+}
+
+fn limits() -> Limits {
+    Limits { stop: Arc::new(progress::is_interrupted), ..Limits::default() }
 }
 
 /// The tests of a table, of these functions.
@@ -49,7 +55,11 @@ pub fn read(
         console.diagnostics(&diagnostics, &source);
         Failure::Reported
     })?;
-    let plans: Vec<Plan> = plans.into_iter().filter(|plan| functions.contains(&plan.function)).collect();
+    let mut plans: Vec<Plan> = plans.into_iter().filter(|plan| functions.contains(&plan.function)).collect();
+    plans.par_iter_mut().for_each(|plan| {
+        let tests: Vec<_> = plan.tests.iter().map(|test| test.values.clone()).collect();
+        plan.coverage = coverage_of(specification, plan.function, &tests, &limits());
+    });
     if plans.is_empty() {
         return Err(Failure::Message(format!("`{}` has no test of these functions", path.display())));
     }

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Instant;
 
 use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
-use petril::flat::FlatProgram;
-use petril::sif::{Ending, Fate, Hunt, Located, Mutant, Plan, PlanRun, Runner, Specification, Start, hunt, mutants};
+use petril::flat::{FlatProgram, Tolerated};
+use petril::sif::proof::{self, Options, Subject, prove};
+use petril::sif::{Ending, Fate, Hunt, Located, Mutant, PlanRun, Runner, Specification, Start, hunt, mutants};
+use petril::verdict::Verdict;
 use petril::witness::{Column, Table};
 
 use super::args::SifRun;
@@ -14,13 +17,14 @@ use super::{Read, planned, specification};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Failure, Outcome, SUCCESS, forms, output};
+use crate::cli::{Failure, Outcome, SUCCESS, forms, output, progress};
 
 /// So many tests or faults are told one by one.
 const MAX_TOLD: usize = 40;
 
 pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     refuse_twice(arguments)?;
+    progress::listen();
     let started = Instant::now();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     let Program { flat, source } = program(&arguments.program, &arguments.meaning.reading, console)?;
@@ -38,11 +42,13 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         console.message("note: faults of a program that does not pass its tests are not looked for\n");
     }
     let found = (arguments.mutants && is_passed).then(|| {
-        let decide = |program: &FlatProgram| decide(&specification, program, &plans, arguments);
+        let tolerated = arguments.meaning.tolerated();
+        let tested: Vec<usize> = plans.iter().map(|plan| plan.function).collect();
+        let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
         hunt(&runner, &plans, mutants(&flat, &source), &decide)
     });
     let excluded = if arguments.html.is_some() || arguments.json {
-        planned::excluded(&specification, &plans.iter().map(|plan| plan.function).collect::<Vec<_>>())
+        planned::left_out(&specification, &plans)
     } else {
         Vec::new()
     };
@@ -73,9 +79,29 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     Ok(if is_passed { SUCCESS } else { ExitCode::from(1) })
 }
 
-/// What the program with a fault is that passes all tests.
-fn decide(_: &Specification, _: &FlatProgram, _: &[Plan], _: &SifRun) -> Fate {
-    Fate::Undecided("nobody has looked".to_owned())
+/// What a program with a fault is that passes all tests: a proof says whether it computes what is specified.
+fn decide(specification: &Specification, program: &FlatProgram, tolerated: Tolerated, functions: &[usize]) -> Fate {
+    if progress::is_interrupted() {
+        return Fate::Undecided("the work was stopped".to_owned());
+    }
+    let options = Options { scans: 4, conflicts: 20_000, stop: Arc::new(progress::is_interrupted), ..Options::default() };
+    // What the program stands for was found for the one without the fault.
+    let Ok(subject) = Subject::new(specification, program, tolerated, functions) else {
+        return Fate::Undecided("a restriction speaks of what the program does not have".to_owned());
+    };
+    let proof = prove(&subject, &options);
+    match proof.verdict() {
+        Verdict::Holds => Fate::Equivalent,
+        Verdict::Violated => Fate::Missed,
+        Verdict::Unknown => {
+            let why = proof.answers.iter().find_map(|answer| match &answer.outcome {
+                proof::Outcome::Unknown(why) => Some(why.clone()),
+                _ => None,
+            });
+            let failing = proof.unknown_failures.first().map(|(_, why)| why.clone());
+            Fate::Undecided(why.or(failing).unwrap_or_default())
+        }
+    }
 }
 
 /// Prints what stands for nothing in the program.

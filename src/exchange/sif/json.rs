@@ -57,6 +57,7 @@ fn function(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> Value {
         document
     });
     let tests: Vec<Value> = tests.collect();
+    let cube = |cube: &crate::sif::Cube| json!({ "true": names(&cube.ones), "false": names(&cube.zeros) });
     json!({
         "function": function.name,
         "title": function.title,
@@ -66,6 +67,9 @@ fn function(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> Value {
         "outputs": names(&plan.touched),
         "absent_outputs": run.map(|(_, run)| names(&run.absent)),
         "incomplete": plan.incomplete,
+        "notes": plan.notes,
+        "smallest": plan.is_smallest,
+        "cubes": plan.cubes.iter().map(cube).collect::<Vec<_>>(),
         "tests": tests,
         "coverage": coverage(specification, &plan.coverage),
         "excluded": sheets.excluded.get(position).map(|one| excluded(specification, one)),

@@ -1,6 +1,6 @@
 //! Which faults tests find and miss: faults of the formulas, and, if they were run, of the program.
 
-use super::markup::{code, counted, escaped, row, table};
+use super::markup::{counted, escaped, row, table, ticked};
 use crate::exchange::sif::Ran;
 use crate::sif::{Coverage, Fate, Hunt, Mutant, SignalId, Specification};
 
@@ -77,17 +77,4 @@ pub fn hunt(ran: &Ran<'_>, hunt: &Hunt) -> String {
 fn more(count: usize) -> String {
     let more = count.saturating_sub(MAX_LISTED);
     if more == 0 { String::new() } else { format!("<p class=\"hint\">… and {more} more</p>\n") }
-}
-
-/// A text in which backticks enclose code.
-fn ticked(text: &str) -> String {
-    let pieces = text.split('`').enumerate();
-    pieces.map(|(at, piece)| if at % 2 == 1 { code(piece) } else { spaced(piece) }).collect()
-}
-
-/// A piece of a text, with the blanks at its ends.
-fn spaced(text: &str) -> String {
-    let blank = |is: bool| if is { " " } else { "" };
-    let inner = escaped(text);
-    format!("{}{inner}{}", blank(text.starts_with(' ')), blank(text.ends_with(' ') && !inner.is_empty()))
 }

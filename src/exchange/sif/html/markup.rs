@@ -45,3 +45,16 @@ pub fn tick(what: &str, is_on: Option<bool>) -> String {
 pub fn counted(count: usize, thing: &str) -> String {
     if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
 }
+
+/// A text in which backticks enclose code.
+pub fn ticked(text: &str) -> String {
+    let pieces = text.split('`').enumerate();
+    pieces.map(|(at, piece)| if at % 2 == 1 { code(piece) } else { spaced(piece) }).collect()
+}
+
+/// A piece of a text, with the blanks at its ends.
+fn spaced(text: &str) -> String {
+    let blank = |is: bool| if is { " " } else { "" };
+    let inner = escaped(text);
+    format!("{}{inner}{}", blank(text.starts_with(' ')), blank(text.ends_with(' ') && !inner.is_empty()))
+}

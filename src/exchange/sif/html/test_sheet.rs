@@ -1,7 +1,7 @@
 //! The tests of a function: inputs to set, outputs to expect, boxes to tick.
 
 use super::data_sheet::time;
-use super::markup::{counted, escaped, tick};
+use super::markup::{counted, escaped, tick, ticked};
 use super::matrix::Matrix;
 use super::{delay, latch};
 use crate::exchange::sif::Sheets;
@@ -44,7 +44,7 @@ pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {
         let purpose = if test.purpose.is_empty() {
             String::new()
         } else {
-            format!("<p class=\"purpose\">{}</p>", escaped(&test.purpose.join("; ")))
+            format!("<p class=\"purpose\">{}</p>", ticked(&test.purpose.join("; ")))
         };
         out += &format!(
             "<tbody{class}><tr><th scope=\"row\">{}</th>{}<td class=\"begins ticks\">{}</td><td class=\"ticks\">{}</td>\
@@ -95,5 +95,6 @@ fn notes(sheets: &Sheets<'_>, plan: &Plan, matrix: &Matrix<'_>) -> String {
     }
     let incomplete =
         plan.incomplete.as_ref().map(|why| format!("<p class=\"doubt\">Not all tests: {}</p>\n", escaped(why)));
-    format!("<p class=\"hint\">{}</p>\n{}", notes.join(" "), incomplete.unwrap_or_default())
+    let said: String = plan.notes.iter().map(|note| format!("<p class=\"hint\">{}</p>\n", ticked(note))).collect();
+    format!("<p class=\"hint\">{}</p>\n{}{said}", notes.join(" "), incomplete.unwrap_or_default())
 }
