@@ -5,6 +5,7 @@ mod told;
 pub mod html;
 pub mod json;
 pub mod junit;
+pub mod list;
 pub mod plan_csv;
 pub mod results_csv;
 

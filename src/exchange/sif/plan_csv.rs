@@ -135,7 +135,7 @@ pub fn read(source: &Source, specification: &Specification) -> Result<Vec<Plan>,
 }
 
 /// What separates values: the sign that the first line has most of.
-fn separator(text: &str) -> u8 {
+pub fn separator(text: &str) -> u8 {
     let first = text.lines().next().unwrap_or_default();
     let count = |sign: u8| first.bytes().filter(|byte| *byte == sign).count();
     [b',', b';', b'\t'].into_iter().rev().max_by_key(|sign| count(*sign)).unwrap_or(b',')

@@ -1,0 +1,39 @@
+//! `petril sif import`: a list of inputs and outputs as the frame of a specification.
+
+use std::ffi::OsStr;
+use std::fs;
+
+use petril::exchange::sif::list;
+
+use super::args::SifImport;
+use crate::cli::console::Console;
+use crate::cli::input::{MAX_TEXT, source};
+use crate::cli::{Failure, Outcome, SUCCESS, output, reason};
+
+pub fn run(arguments: &SifImport, console: &Console) -> Outcome {
+    let path = &arguments.list;
+    let name = path.display();
+    let ending = path.extension().and_then(OsStr::to_str).map(str::to_lowercase);
+    let rows = if ending.as_deref() == Some("xlsx") {
+        let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {}", reason(&error)));
+        if fs::metadata(path).map_err(cannot)?.len() > MAX_TEXT {
+            return Err(Failure::Message(format!("`{name}` has more than {} MiB", MAX_TEXT >> 20)));
+        }
+        list::rows_of_workbook(&fs::read(path).map_err(cannot)?)
+    } else {
+        list::rows_of_text(source(path, MAX_TEXT, console)?.text())
+    };
+    let rows = rows.map_err(|problem| Failure::Message(format!("{name}: {problem}")))?;
+    let title = path.file_stem().and_then(OsStr::to_str).unwrap_or("list");
+    let text = list::frame(title, &rows).map_err(|problems| {
+        let lines: Vec<String> = problems.iter().take(20).map(|problem| format!("{name}: {problem}")).collect();
+        Failure::Message(lines.join("\n"))
+    })?;
+    match &arguments.output {
+        None => console.print(&text),
+        Some(file) => {
+            output::write_text(file, &text)?;
+            Ok(SUCCESS)
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Lists of inputs and outputs, as engineers keep them in tables (CSV, XLSX), as the frame of a specification.
+//!
+//! The first row with a column for names is the head. Columns are found by their words; only a name, and whether it is an input
+//! or an output, has to be there.
+
+use std::io::Cursor;
+
+use calamine::{Reader as _, Xlsx};
+
+use super::plan_csv::separator;
+
+/// What columns are called, in small letters.
+const HEADS: [(&str, &[&str]); 7] = [
+    ("name", &["name", "signal", "tag", "symbol", "signal name", "tag name"]),
+    ("direction", &["direction", "i/o", "io", "in/out", "kind", "type", "i/o type", "io type"]),
+    ("description", &["description", "comment", "text", "meaning", "designation"]),
+    ("address", &["address", "variable", "channel", "plc address", "plc variable"]),
+    ("zone", &["zone", "area", "group"]),
+    ("function", &["function", "sif", "safety function"]),
+    ("rest", &["rest", "normally", "normal", "rest value", "normal value"]),
+];
+
+/// The rows of a text with values between commas, semicolons or tabs.
+///
+/// # Errors
+/// What is no such text.
+pub fn rows_of_text(text: &str) -> Result<Vec<Vec<String>>, String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .delimiter(separator(text))
+        .from_reader(text.as_bytes());
+    let rows = reader.records().map(|record| Ok(record?.iter().map(str::to_owned).collect()));
+    rows.collect::<Result<_, csv::Error>>().map_err(|error| error.to_string())
+}
+
+/// The rows of the first sheet of a workbook (XLSX).
+///
+/// # Errors
+/// What is no workbook.
+pub fn rows_of_workbook(bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
+    let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+    let sheet = book.worksheet_range_at(0).ok_or("the workbook has no sheet")?.map_err(|error| error.to_string())?;
+    Ok(sheet.rows().map(|row| row.iter().map(|cell| cell.to_string().trim().to_owned()).collect()).collect())
+}
+
+/// A line of the list.
+struct Line {
+    is_output: bool,
+    declaration: String,
+    name: String,
+}
+
+/// Functions of zones, with their lines, in the order of the list. What has no function stands before all of them.
+#[derive(Default)]
+struct Frame {
+    inputs: Vec<String>,
+    functions: Vec<(String, String, Vec<Line>)>,
+}
+
+/// The frame of a specification. What is left to be written in are its formulas.
+///
+/// # Errors
+/// For each row of which too little is said, a sentence.
+pub fn frame(title: &str, rows: &[Vec<String>]) -> Result<String, Vec<String>> {
+    let head = rows.iter().position(|row| column(row, 0).is_some());
+    let Some(head) = head else {
+        let message = "no row is a head with a column `name`, and one `direction` or `address`";
+        return Err(vec![message.to_owned()]);
+    };
+    let columns: [Option<usize>; 7] = std::array::from_fn(|kind| column(&rows[head], kind));
+    let mut frame = Frame::default();
+    let mut errors = Vec::new();
+    for (number, row) in rows.iter().enumerate().skip(head + 1) {
+        let cell = |kind: usize| columns[kind].and_then(|at| row.get(at)).map_or("", String::as_str);
+        if !cell(0).is_empty() {
+            if let Err(message) = frame.add(&cell) {
+                errors.push(format!("row {}: {message}", number + 1));
+            }
+        }
+    }
+    if errors.is_empty() { Ok(frame.text(title)) } else { Err(errors) }
+}
+
+/// The column of a kind, in a row that may be the head.
+fn column(row: &[String], kind: usize) -> Option<usize> {
+    row.iter().position(|cell| HEADS[kind].1.contains(&cell.to_lowercase().as_str()))
+}
+
+impl Frame {
+    fn add<'c>(&mut self, cell: &impl Fn(usize) -> &'c str) -> Result<(), String> {
+        let [said, direction, description, address, zone, function, rest] = std::array::from_fn(cell);
+        let is_output = output(direction, address)
+            .ok_or_else(|| format!("nothing says whether `{said}` is an input or an output"))?;
+        let name = identifier(said);
+        let mut words: Vec<&str> = vec![description];
+        if name != said {
+            words.push(said);
+        }
+        words.retain(|word| !word.is_empty());
+        let mut declaration = format!("{} {name}", if is_output { "output" } else { "input" });
+        if !words.is_empty() {
+            declaration += &format!(" {}", quoted(&words.join(", ")));
+        }
+        declaration += &match address {
+            "" => String::new(),
+            address if address.starts_with('%') => format!(" at {address}"),
+            variable => format!(" is {variable}"),
+        };
+        if !is_output && ["true", "1", "yes", "on"].contains(&rest.to_lowercase().as_str()) {
+            declaration += " normally TRUE";
+        }
+        declaration += ";";
+        if function.is_empty() && !is_output {
+            self.inputs.push(declaration);
+            return Ok(());
+        }
+        let function = if function.is_empty() { "Unassigned".to_owned() } else { identifier(function) };
+        let zone = if zone.is_empty() { String::new() } else { identifier(zone) };
+        let found = self.functions.iter().position(|(z, f, _)| *z == zone && *f == function);
+        let position = found.unwrap_or_else(|| {
+            self.functions.push((zone, function, Vec::new()));
+            self.functions.len() - 1
+        });
+        self.functions[position].2.push(Line { is_output, declaration, name });
+        Ok(())
+    }
+
+    fn text(mut self, title: &str) -> String {
+        let mut out = format!("// The frame of a specification. Its formulas are to be written in.\nsystem {};\n", quoted(title));
+        for input in &self.inputs {
+            out += &format!("{input}\n");
+        }
+        // A zone may be continued, so the order of the list stays.
+        let mut open = String::new();
+        for (zone, function, lines) in &mut self.functions {
+            if *zone != open {
+                out += if open.is_empty() { "" } else { "}\n" };
+                out += &if zone.is_empty() { String::new() } else { format!("\nzone {zone} {{\n") };
+                open.clone_from(zone);
+            }
+            let indent = if zone.is_empty() { "" } else { "    " };
+            lines.sort_by_key(|line| line.is_output);
+            let declarations: String =
+                lines.iter().map(|line| format!("{indent}        {}\n", line.declaration)).collect();
+            let outputs = lines.iter().filter(|line| line.is_output);
+            let missing: String = outputs.map(|line| format!("{indent}        // {} = \n", line.name)).collect();
+            out += &format!(
+                "\n{indent}function {function} {{\n{indent}    interface {{\n{declarations}{indent}    }}\n\
+                 {indent}    formal {{\n{missing}{indent}    }}\n{indent}}}\n"
+            );
+        }
+        out + if open.is_empty() { "" } else { "}\n" }
+    }
+}
+
+/// Whether a direction, or else an address, is that of an output.
+fn output(direction: &str, address: &str) -> Option<bool> {
+    match direction.to_lowercase().as_str() {
+        "input" | "in" | "i" | "di" | "digital input" => Some(false),
+        "output" | "out" | "o" | "q" | "do" | "digital output" => Some(true),
+        _ => match address.to_uppercase().get(..2) {
+            Some("%I") => Some(false),
+            Some("%Q") => Some(true),
+            _ => None,
+        },
+    }
+}
+
+/// The words that mean something in a formula.
+const RESERVED: [&str; 8] = ["not", "and", "or", "xor", "implies", "iff", "true", "false"];
+
+/// A name of the language: what is no letter or digit becomes `_`.
+fn identifier(text: &str) -> String {
+    let plain: String = text.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let begins = plain.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    if begins && !RESERVED.contains(&plain.to_lowercase().as_str()) { plain } else { format!("_{plain}") }
+}
+
+/// A text of the language, which has no sign for a quotation mark.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.split_whitespace().collect::<Vec<_>>().join(" ").replace('"', "'"))
+}
