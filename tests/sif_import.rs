@@ -77,10 +77,13 @@ fn a_list_becomes_a_frame_whose_errors_are_what_is_left_to_do() {
 fn what_is_no_list_is_refused() {
     let refused = |text: &str| list::frame("x", &list::rows_of_text(text).unwrap()).unwrap_err();
     assert!(refused("")[0].contains("no row is a head"));
-    assert_eq!(refused("name,type\nA,\nB,in\nC,who knows\n"), [
-        "row 2: nothing says whether `A` is an input or an output",
-        "row 4: nothing says whether `C` is an input or an output",
-    ]);
+    assert_eq!(
+        refused("name,type\nA,\nB,in\nC,who knows\n"),
+        [
+            "row 2: nothing says whether `A` is an input or an output",
+            "row 4: nothing says whether `C` is an input or an output",
+        ]
+    );
 }
 
 /// The least that a workbook is made of. There are no compressed parts, so that a test can write it by itself.
@@ -91,17 +94,38 @@ fn workbook(path: &Path, rows: &[&[&str]]) {
     let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
     let package = "http://schemas.openxmlformats.org/package/2006";
     let parts = [
-        ("[Content_Types].xml", format!(
-            "<Types xmlns=\"{package}/content-types\"><Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\
-             <Default Extension=\"xml\" ContentType=\"application/xml\"/></Types>")),
-        ("_rels/.rels", format!(
-            "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{office}/officeDocument\" Target=\"xl/workbook.xml\"/></Relationships>")),
-        ("xl/workbook.xml", format!(
-            "<workbook xmlns=\"{main}\" xmlns:r=\"{office}\"><sheets><sheet name=\"IO\" sheetId=\"1\" r:id=\"r1\"/></sheets></workbook>")),
-        ("xl/_rels/workbook.xml.rels", format!(
-            "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{office}/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>")),
-        ("xl/worksheets/sheet1.xml", format!(
-            "<worksheet xmlns=\"{main}\"><sheetData>{}</sheetData></worksheet>", rows.iter().map(row).collect::<String>())),
+        (
+            "[Content_Types].xml",
+            format!(
+                "<Types xmlns=\"{package}/content-types\"><Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\
+             <Default Extension=\"xml\" ContentType=\"application/xml\"/></Types>"
+            ),
+        ),
+        (
+            "_rels/.rels",
+            format!(
+                "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{office}/officeDocument\" Target=\"xl/workbook.xml\"/></Relationships>"
+            ),
+        ),
+        (
+            "xl/workbook.xml",
+            format!(
+                "<workbook xmlns=\"{main}\" xmlns:r=\"{office}\"><sheets><sheet name=\"IO\" sheetId=\"1\" r:id=\"r1\"/></sheets></workbook>"
+            ),
+        ),
+        (
+            "xl/_rels/workbook.xml.rels",
+            format!(
+                "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{office}/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>"
+            ),
+        ),
+        (
+            "xl/worksheets/sheet1.xml",
+            format!(
+                "<worksheet xmlns=\"{main}\"><sheetData>{}</sheetData></worksheet>",
+                rows.iter().map(row).collect::<String>()
+            ),
+        ),
     ];
     let crc = |bytes: &[u8]| {
         !bytes.iter().fold(u32::MAX, |crc, byte| {
@@ -115,7 +139,9 @@ fn workbook(path: &Path, rows: &[&[&str]]) {
         common.extend([crc(text.as_bytes()), size, size].map(u32::to_le_bytes).concat());
         common.extend([name.len() as u16, 0].map(u16::to_le_bytes).concat());
         file.extend([b"PK\x03\x04", &common[..], name.as_bytes(), text.as_bytes()].concat());
-        directory.extend([b"PK\x01\x02\x14\x00", &common[..], &[0; 6][..], &[0; 4], &at.to_le_bytes(), name.as_bytes()].concat());
+        directory.extend(
+            [b"PK\x01\x02\x14\x00", &common[..], &[0; 6][..], &[0; 4], &at.to_le_bytes(), name.as_bytes()].concat(),
+        );
     }
     let count = (parts.len() as u16).to_le_bytes();
     let end = [(directory.len() as u32).to_le_bytes(), (file.len() as u32).to_le_bytes()].concat();
@@ -127,7 +153,8 @@ fn workbook(path: &Path, rows: &[&[&str]]) {
 fn workbooks_are_read_and_files_written() {
     let folder = tempfile::tempdir().unwrap();
     let rows: Vec<Vec<&str>> = LIST.lines().map(|line| line.split(';').collect()).collect();
-    let plain: Vec<Vec<&str>> = rows.iter().map(|row| row.iter().map(|cell| cell.trim_matches('"')).collect()).collect();
+    let plain: Vec<Vec<&str>> =
+        rows.iter().map(|row| row.iter().map(|cell| cell.trim_matches('"')).collect()).collect();
     let rows: Vec<&[&str]> = plain.iter().map(Vec::as_slice).collect();
     workbook(&folder.path().join("oven.xlsx"), &rows);
     fs::write(folder.path().join("oven.csv"), LIST).unwrap();

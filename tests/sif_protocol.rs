@@ -2,9 +2,9 @@
 //! them, tables read back, and the protocol as a page, which needs `PETRIL_BROWSER` and `chromedriver` to be opened.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
-mod support;
 #[path = "support/sif_system.rs"]
 mod sif_system;
+mod support;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use std::process::Command;
 
 use base64::Engine as _;
 use serde_json::{Value, json};
+use sif_system::{LARGE, made};
 use support::browser::Browser;
 use support::forms::root;
 use support::process::{Run, petril, run};
-use sif_system::{LARGE, made};
 
 const F1: [&str; 2] = ["examples/beam-interlock.sif", "examples/beam-interlock.il"];
 const BROKEN: [&str; 2] = ["examples/beam-interlock.sif", "examples/beam-interlock-broken.il"];
@@ -147,7 +147,8 @@ fn hostile_texts_are_only_texts() {
     roxmltree::Document::parse(&fs::read_to_string(folder.path().join("j.xml")).unwrap()).unwrap();
     let Some(browser) = Browser::start() else { return };
     browser.open(&folder.path().join("h.html"));
-    let shown = browser.run("return [document.querySelector('h1').textContent, document.querySelectorAll('img, b, i, u').length]");
+    let shown = browser
+        .run("return [document.querySelector('h1').textContent, document.querySelectorAll('img, b, i, u').length]");
     let line = evil.replace('\u{1}', "\u{FFFD}");
     // One word is in bold letters: the result.
     assert_eq!(shown, json!([line, 1]));

@@ -91,8 +91,13 @@ fn the_papers_ten_tests_do_not_find_the_fault_that_other_tests_find() {
     // The program sets F1 with MODE_Tra whatever the beam element says. The formula does not where it is in its safe position and the
     // access elements are safe: by R2 and R3 that leaves one valuation.
     let found = run(&specification, &broken, Start::PowerOn, &both);
-    let failed: Vec<&Test> =
-        both.tests.iter().zip(&found.tests).filter(|(_, made)| made.ending.word() == "failed").map(|(t, _)| t).collect();
+    let failed: Vec<&Test> = both
+        .tests
+        .iter()
+        .zip(&found.tests)
+        .filter(|(_, made)| made.ending.word() == "failed")
+        .map(|(t, _)| t)
+        .collect();
     let names = ["MODE_Tra", "EISb_Pos", "EISa_Safe"].map(|name| signal(&specification, name));
     assert_eq!(failed.len(), 1);
     assert_eq!(failed[0].values, specification.valuation(names));
@@ -172,8 +177,14 @@ fn errors_of_the_program_are_told_with_their_line() {
     assert_eq!(words(&results[0]), ["passed", "error", "error", "passed"]);
     let source = Source::new("p.il", text);
     let ran = Ran { runner: &runner, source: &source, results: &results, hunt: None };
-    let sheets =
-        Sheets { specification: &specification, sources: &[], plans: &plans, origin: None, excluded: &[], run: Some(ran) };
+    let sheets = Sheets {
+        specification: &specification,
+        sources: &[],
+        plans: &plans,
+        origin: None,
+        excluded: &[],
+        run: Some(ran),
+    };
     let told: Vec<String> = results[0].tests.iter().flat_map(|test| reasons(&sheets, &ran, test)).collect();
     assert_eq!(told, ["in scan 1, a number is divided by 0 (p.il:10: DIV 0)", "scan 1 never ends: it repeats a state"]);
 }
@@ -223,7 +234,8 @@ fn a_plan_is_read_back_as_it_was_written() {
     assert_eq!(read[0].tests, plans[0].tests);
 
     // Somebody expects something else; another one mistypes.
-    let changed = plan_csv::read(&Source::new("p.csv", "function\tMODE_acc\tF1\nf1\tTRUE\t0\n"), &specification).unwrap();
+    let changed =
+        plan_csv::read(&Source::new("p.csv", "function\tMODE_acc\tF1\nf1\tTRUE\t0\n"), &specification).unwrap();
     assert_eq!(changed[0].tests[0].values, specification.valuation([signal(&specification, "MODE_Acc")]));
     for (text, message) in [
         ("function,MODE_Ac\nF1,1\n", "there is no input or output `MODE_Ac`"),

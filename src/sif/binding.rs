@@ -1,5 +1,7 @@
 //! Which variables of a program signals stand for.
 
+use fixedbitset::FixedBitSet;
+
 use super::formula::SignalId;
 use super::specification::{Binding, Kind, Place, Specification};
 use crate::diagnostic::{Code, Diagnostic};
@@ -18,6 +20,8 @@ pub struct Binder<'a> {
     signals: Vec<Option<SignalId>>,
     /// The variable of each signal that was asked for.
     variables: Vec<Option<VarId>>,
+    /// Those that were asked for: what is wrong is said once.
+    asked: FixedBitSet,
     found: Vec<Located>,
 }
 
@@ -26,7 +30,8 @@ impl<'a> Binder<'a> {
     #[must_use]
     pub fn new(specification: &'a Specification, program: &'a FlatProgram) -> Self {
         let (signals, variables) = (vec![None; program.variables.len()], vec![None; specification.signals.len()]);
-        Self { specification, program, signals, variables, found: Vec::new() }
+        let asked = FixedBitSet::with_capacity(specification.signals.len());
+        Self { specification, program, signals, variables, asked, found: Vec::new() }
     }
 
     /// The variable of each signal that was asked for.
@@ -47,7 +52,7 @@ impl<'a> Binder<'a> {
 
     /// The variable of a signal; nothing if an error has been said.
     pub fn bind(&mut self, id: SignalId) -> Option<VarId> {
-        if self.variables[id.0].is_some() {
+        if self.asked.put(id.0) {
             return self.variables[id.0];
         }
         let signal = self.specification.signal(id);

@@ -14,6 +14,8 @@ pub enum SifVerb {
     Check(SifCheck),
     /// Tell which triggering valuations restrictions exclude from the tests.
     Excluded(SifExcluded),
+    /// Write the frame of a specification, from a list of inputs and outputs.
+    Import(SifImport),
     /// Prove that a program computes what is specified, or show the scans in which it does not.
     Prove(SifProve),
     /// Write a specification as requirements, for `petril check`.
@@ -30,6 +32,7 @@ impl SifVerb {
         match self {
             Self::Check(arguments) => arguments.json,
             Self::Excluded(_) => false,
+            Self::Import(_) => false,
             Self::Prove(arguments) => arguments.json,
             Self::Requirements(_) => false,
             Self::Run(arguments) => arguments.json,
@@ -227,4 +230,23 @@ pub struct SifExcluded {
 fn criterion(name: &str) -> Result<Criterion, String> {
     let found = Criterion::ALL.into_iter().find(|criterion| criterion.name().eq_ignore_ascii_case(name));
     found.ok_or_else(|| format!("there are {}", Criterion::ALL.map(Criterion::name).join(", ")))
+}
+
+/// `petril sif import`
+///
+/// The first row with a column `name` (or `signal`, `tag`, `symbol`) is the head. Others are `direction` (or `I/O`: input, in, DI,
+/// output, out, DO), `description`, `address` (`%IX0.0`, or a variable), `zone`, `function`, and `normal` (the value at rest). What is
+/// written is a specification without formulas; `petril sif check` says which are missing.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = "\
+Example:
+  petril sif import io-list.xlsx -o zone.sif
+  petril sif check zone.sif")]
+pub struct SifImport {
+    /// The list: a workbook (.xlsx), of which the first sheet is read, or text with commas, semicolons or tabs.
+    #[arg(value_name = "LIST")]
+    pub list: PathBuf,
+    /// Where to write; standard output if not given.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }

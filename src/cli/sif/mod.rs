@@ -3,6 +3,7 @@
 pub mod args;
 mod check;
 mod excluded;
+mod import;
 mod planned;
 mod prove;
 mod requirements;
@@ -25,6 +26,7 @@ pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
     match verb {
         SifVerb::Check(arguments) => check::run(arguments, console),
         SifVerb::Excluded(arguments) => excluded::run(arguments, console),
+        SifVerb::Import(arguments) => import::run(arguments, console),
         SifVerb::Prove(arguments) => prove::run(arguments, console),
         SifVerb::Requirements(arguments) => requirements::run(arguments, console),
         SifVerb::Run(arguments) => run::run(arguments, console),

@@ -8,9 +8,9 @@ use petril::exchange::sif::plan_csv;
 use petril::sif::{Criterion, Excluded, Limits, Plan, Specification, coverage_of, excluded, plan};
 use rayon::prelude::*;
 
-use crate::cli::{Failure, progress};
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
+use crate::cli::{Failure, progress};
 
 /// The positions of functions by their names; all of them if none is named.
 pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<usize>, Failure> {

@@ -47,11 +47,8 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
         hunt(&runner, &plans, mutants(&flat, &source), &decide)
     });
-    let excluded = if arguments.html.is_some() || arguments.json {
-        planned::left_out(&specification, &plans)
-    } else {
-        Vec::new()
-    };
+    let excluded =
+        if arguments.html.is_some() || arguments.json { planned::left_out(&specification, &plans) } else { Vec::new() };
     let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
     let ran = Ran { runner: &runner, source: &source, results: &results, hunt: found.as_ref() };
     let sheets = Sheets {
@@ -84,7 +81,8 @@ fn decide(specification: &Specification, program: &FlatProgram, tolerated: Toler
     if progress::is_interrupted() {
         return Fate::Undecided("the work was stopped".to_owned());
     }
-    let options = Options { scans: 4, conflicts: 20_000, stop: Arc::new(progress::is_interrupted), ..Options::default() };
+    let options =
+        Options { scans: 4, conflicts: 20_000, stop: Arc::new(progress::is_interrupted), ..Options::default() };
     // What the program stands for was found for the one without the fault.
     let Ok(subject) = Subject::new(specification, program, tolerated, functions) else {
         return Fate::Undecided("a restriction speaks of what the program does not have".to_owned());

@@ -128,7 +128,8 @@ impl Frame {
     }
 
     fn text(mut self, title: &str) -> String {
-        let mut out = format!("// The frame of a specification. Its formulas are to be written in.\nsystem {};\n", quoted(title));
+        let mut out =
+            format!("// The frame of a specification. Its formulas are to be written in.\nsystem {};\n", quoted(title));
         for input in &self.inputs {
             out += &format!("{input}\n");
         }

@@ -24,8 +24,7 @@ fn text(specification: &Specification, formula: &Formula, is_within: bool) -> St
         Formula::Not(inner) => format!("!{}", text(specification, inner, true)),
         Formula::Gate(operator, operands) => {
             let is_among = is_among(*operator);
-            let inner: Vec<String> =
-                operands.iter().map(|operand| text(specification, operand, !is_among)).collect();
+            let inner: Vec<String> = operands.iter().map(|operand| text(specification, operand, !is_among)).collect();
             match (is_among, is_within) {
                 (true, _) => format!("{} ({})", operator.symbol(), inner.join(", ")),
                 (false, true) => format!("({})", inner.join(&format!(" {} ", operator.symbol()))),
