@@ -153,9 +153,7 @@ fn workbook(path: &Path, rows: &[&[&str]]) {
 fn workbooks_are_read_and_files_written() {
     let folder = tempfile::tempdir().unwrap();
     let rows: Vec<Vec<&str>> = LIST.lines().map(|line| line.split(';').collect()).collect();
-    let plain: Vec<Vec<&str>> =
-        rows.iter().map(|row| row.iter().map(|cell| cell.trim_matches('"')).collect()).collect();
-    let rows: Vec<&[&str]> = plain.iter().map(Vec::as_slice).collect();
+    let rows: Vec<&[&str]> = rows.iter().map(Vec::as_slice).collect();
     workbook(&folder.path().join("oven.xlsx"), &rows);
     fs::write(folder.path().join("oven.csv"), LIST).unwrap();
     let of = |list: &str| {

@@ -103,8 +103,8 @@ fn formal(specification: &Specification, function: usize) -> String {
     let prefix = format!("{}.", own.name);
     let equation = |id: &SignalId| {
         let name = specification.name(*id);
-        let name = name.strip_prefix(&prefix).unwrap_or(name);
-        let equation = specification.definition(*id).map(|formula| paper::equation(specification, name, formula));
+        let formula = specification.definition(*id);
+        let equation = formula.map(|formula| paper::equation(specification, &prefix, name, formula));
         let lines: Vec<String> = equation.iter().flat_map(|text| text.split('\n')).map(indented).collect();
         format!("<p class=\"formula\"><code>{}</code></p>\n", lines.join("\n"))
     };
