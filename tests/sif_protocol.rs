@@ -2,8 +2,6 @@
 //! them, tables read back, and the protocol as a page, which needs `PETRIL_BROWSER` and `chromedriver` to be opened.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
-#[path = "support/sif_system.rs"]
-mod sif_system;
 mod support;
 
 use std::fs;
@@ -12,10 +10,10 @@ use std::process::Command;
 
 use base64::Engine as _;
 use serde_json::{Value, json};
-use sif_system::{LARGE, made};
 use support::browser::Browser;
 use support::forms::root;
 use support::process::{Run, petril, run};
+use support::sif_system::{LARGE, made};
 
 const F1: [&str; 2] = ["examples/beam-interlock.sif", "examples/beam-interlock.il"];
 const BROKEN: [&str; 2] = ["examples/beam-interlock.sif", "examples/beam-interlock-broken.il"];

@@ -8,7 +8,7 @@ use std::time::Instant;
 use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
 use petril::flat::{FlatProgram, Tolerated};
 use petril::sif::proof::{self, Options, Subject, prove};
-use petril::sif::{Ending, Fate, Hunt, Located, Mutant, PlanRun, Runner, Specification, Start, hunt, mutants};
+use petril::sif::{Ending, Fate, Hunt, Located, Mutant, Runner, Specification, Start, hunt, mutants};
 use petril::verdict::Verdict;
 use petril::witness::{Column, Table};
 
@@ -135,11 +135,13 @@ fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
     };
     let (name, file) = (&ran.program().name, ran.source.name());
     let mut out = format!("program `{name}` from {file}: tests {by}, {how}\n\n");
-    out += &summary(sheets, ran).within(console.output_width());
+    if sheets.plans.len() <= MAX_TOLD {
+        out += &summary(sheets, ran).within(console.output_width());
+    }
     out += &failures(sheets, ran, console.output_width());
     out += &notes(sheets, ran);
     let [passed, failed, errors] = ran.counts();
-    let tests = counted(sheets.tests(), "test");
+    let tests = format!("{} of {}", counted(sheets.tests(), "test"), counted(sheets.plans.len(), "function"));
     out += &match (failed, errors) {
         (0, 0) => format!("\n{tests}: {}\n", console.paint("all passed", Colour::Good)),
         _ => {
@@ -150,13 +152,11 @@ fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
     out + &ran.hunt.map(|hunt| told(hunt, ran)).unwrap_or_default()
 }
 
-/// A row for each function; of many functions, only those with tests that are not passed.
+/// A row for each function.
 fn summary(sheets: &Sheets<'_>, ran: &Ran<'_>) -> Table {
     let heads = ["tests", "passed", "failed", "errors"].map(Column::right).to_vec();
     let mut table = Table::new(vec![vec![Column::left("function")], heads]);
-    let is_told =
-        |run: &PlanRun| sheets.plans.len() <= MAX_TOLD || run.tests.iter().any(|test| test.ending.word() != "passed");
-    for (plan, run) in sheets.plans.iter().zip(ran.results).filter(|(_, run)| is_told(run)) {
+    for (plan, run) in sheets.plans.iter().zip(ran.results) {
         let count = |word| run.tests.iter().filter(|test| test.ending.word() == word).count();
         let counts = [run.tests.len(), count("passed"), count("failed"), count("error")];
         let name = sheets.specification.functions[plan.function].name.clone();
