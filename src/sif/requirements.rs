@@ -7,7 +7,8 @@ use super::formula::{Formula, Operator};
 use super::specification::{Binding, Kind, Scope, Signal, Specification};
 
 /// The text of a requirement file: restrictions of the whole system are assumed, those of a zone or a function are premises of
-/// its requirements, which have to be kept by all scans so far. Outputs are named as the program does; auxiliary values are written out.
+/// its requirements, which have to be kept by all scans so far. Outputs are
+/// named as the program does, also where another formula uses them; auxiliary values are written out.
 #[must_use]
 pub fn requirements(specification: &Specification) -> String {
     let mut text = String::new();

@@ -86,7 +86,7 @@ fn gate(part: &Formula, names: &[SignalId], around: Context<'_>, found: &mut dyn
     if operands.len() > 1 {
         match operator {
             And => found("operator", make(Or, operands.clone())),
-            Or => found("operator", make(And, operands.clone())),
+            Or => [And, Xor].iter().for_each(|other| found("operator", make(*other, operands.clone()))),
             Xor => {
                 let two = [Or, And, Iff];
                 let others = if operands.len() == 2 { &two[..] } else { &two[..2] };

@@ -105,7 +105,7 @@ pub fn made(size: Size, seed: u64) -> Made {
             let name = format!("Z{zone}_F{number}");
             // Each function looks at a part of the zone; one in four also at what another function says.
             let mut names: Vec<String> = Vec::new();
-            let wanted = 4 + lots.below(6);
+            let wanted = (4 + lots.below(6)).min(inputs.len());
             while names.len() < wanted {
                 let name = &inputs[lots.below(inputs.len())];
                 if !names.contains(name) {

@@ -105,7 +105,7 @@ fn others(operator: Operator, operands: usize) -> &'static [Operator] {
     match operator {
         _ if operands < 2 => &[],
         Operator::And => &[Operator::Or],
-        Operator::Or => &[Operator::And],
+        Operator::Or => &[Operator::And, Operator::Xor],
         Operator::Xor if operands == 2 => &[Operator::Or, Operator::And, Operator::Iff],
         Operator::Xor => &[Operator::Or, Operator::And],
         Operator::Implies => &[Operator::Iff, Operator::And, Operator::Or],

@@ -10,7 +10,7 @@
 //! | literal negation | a literal is negated | LNF |
 //! | term negation | a term inside an equation is negated | TNF |
 //! | expression negation | a whole equation is negated | ENF |
-//! | operator | `&` and `\|` for each other; `xor` becomes `\|`, `&`, `<->`; `->` is turned round or becomes `<->`, `&`, `\|`; `<->` becomes `xor`, or `->` either way; `at most one of` becomes `exactly one of` or `\|`; `exactly one of` becomes `at most one of`, `\|` or `xor` | ORF |
+//! | operator | `&` and `\|` for each other; `\|` becomes `xor`; `xor` becomes `\|`, `&`, `<->`; `->` is turned round or becomes `<->`, `&`, `\|`; `<->` becomes `xor`, or `->` either way; `at most one of` becomes `exactly one of` or `\|`; `exactly one of` becomes `at most one of`, `\|` or `xor` | ORF |
 //! | literal omission | a literal that is an operand of `&`, `\|` or `xor` is left out | LOF |
 //! | term omission | the same with a term | TOF |
 //! | literal insertion | a name or its negation becomes a further operand of an `&` or `\|` that has not got it yet | LIF |
