@@ -7,6 +7,11 @@ mod sif_system;
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Runs of each measurement, of which the shortest counts.
+const RUNS: usize = 3;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -15,12 +20,41 @@ fn main() {
     }
     if let Some(folder) = arguments.iter().skip_while(|argument| *argument != "write").nth(1) {
         write_site(Path::new(folder));
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    write_site(folder.path());
+    let petril = |words: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_petril"));
+        let begin = Instant::now();
+        let output = command.arg("sif").args(words.split(' ')).current_dir(folder.path()).output().unwrap();
+        (begin.elapsed(), String::from_utf8(output.stdout).unwrap())
+    };
+    println!("| command | seconds | last line |\n|---|--:|---|");
+    let commands = [
+        "check site.sif",
+        "tests site.sif --criterion all --csv all.csv",
+        "tests site.sif --criterion mcdc --csv mcdc.csv",
+        "tests site.sif --criterion faults --csv faults.csv",
+        "tests site.sif --criterion pairs --csv pairs.csv",
+        "tests site.sif --criterion faults --html faults.html",
+        "run site.sif site.il",
+        "prove site.sif site.il",
+        "prove site.sif wrong.il",
+    ];
+    for words in commands {
+        let mut runs: Vec<(Duration, String)> = (0..RUNS).map(|_| petril(words)).collect();
+        runs.sort();
+        let (time, text) = &runs[0];
+        println!("| `{words}` | {:.2} | {} |", time.as_secs_f64(), text.lines().last().unwrap_or_default());
     }
 }
 
-/// The generated system of 350 inputs, 19 zones and 200 functions.
+/// The generated system of 350 inputs, 19 zones and 200 functions, and a program with one wrong line.
 fn write_site(folder: &Path) {
     let made = sif_system::made(sif_system::LARGE, 1);
     fs::write(folder.join("site.sif"), made.specification).unwrap();
+    let wrong = made.program.replacen("        OR(", "        AND(", 1);
+    fs::write(folder.join("wrong.il"), wrong).unwrap();
     fs::write(folder.join("site.il"), made.program).unwrap();
 }

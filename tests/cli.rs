@@ -6,6 +6,7 @@ fn sessions_go_as_shown() {
     trycmd::TestCases::new()
         .case("tests/cli/*.md")
         .case("docs/requirements.md")
+        .case("docs/safety-functions.md")
         .case("docs/examples.md")
         .case("docs/nets.md")
         .case("docs/simulation.md")
