@@ -51,7 +51,7 @@ pub enum Verb {
     /// Work on any place/transition net.
     #[command(subcommand)]
     Net(NetVerb),
-    /// Safety functions: check their specification, make tests of it, prove a program against it.
+    /// Check, test and prove safety functions, which Boolean formulas specify.
     #[command(subcommand)]
     Sif(SifVerb),
     /// Explain a code like E0201 that stands in a message.
