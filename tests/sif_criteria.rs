@@ -86,7 +86,7 @@ fn the_seed_papers_function() {
     assert_eq!((excluded.triggering.as_deref(), excluded.excluded.as_deref()), (Some("43"), Some("33")));
     let by: Vec<(usize, &str)> =
         excluded.by_restriction.iter().map(|(restriction, count, _)| (*restriction, count.as_str())).collect();
-    assert_eq!(by, [(0, "6"), (1, "11"), (2, "24")]);
+    assert_eq!(by, [(0, "24"), (1, "6"), (2, "11")]);
     assert_eq!(excluded.listed.unwrap().len(), 33);
 }
 

@@ -65,7 +65,7 @@ fn the_seeds_function_is_proved() {
     assert_eq!(proved(&proof), (By::AnyState, Some(Confirmed::EveryScan { states: 1, scans: 128 })));
     assert_eq!(proof.compared, 1024);
     assert_eq!(proof.assumptions.len(), 1, "{:?}", proof.assumptions);
-    assert!(proof.assumptions[0].contains("for function F1, R1: never"), "{:?}", proof.assumptions);
+    assert!(proof.assumptions[0].contains("for function F1, R3: never"), "{:?}", proof.assumptions);
 }
 
 /// Each change is seen at a valuation that the restrictions allow.

@@ -60,10 +60,8 @@ fn mutant(program: &str, number: usize) -> String {
     let swapped = match words[0] {
         "LD" => "LDN",
         "LDN" => "LD",
-        "AND" => "OR",
-        "ANDN" => "AND",
-        "OR" => "AND",
-        "ORN" => "OR",
+        "AND" | "ORN" => "OR",
+        "ANDN" | "OR" => "AND",
         "AND(" => "OR(",
         _ => "AND(",
     };

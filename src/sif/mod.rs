@@ -35,7 +35,7 @@ mod written;
 
 pub use binding::{Binder, Located};
 pub use cone::{Cone, Encoded};
-pub use criteria::{Limits, Study, coverage_of, excluded, plan};
+pub use criteria::{Limits, Study, about, coverage_of, excluded, plan};
 pub use diagram::{Cube, Diagram, Diagrams};
 pub use faults::Class;
 pub use formula::{Formula, Operator, SignalId};

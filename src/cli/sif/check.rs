@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use petril::diagnostic::Diagnostic;
 use petril::sif::sanity::{Counts, Doubt, Finding, check, counts};
-use petril::sif::{Scope, Specification, Stop};
+use petril::sif::{Scope, Specification, Stop, about};
 use serde_json::{Value, json};
 
 use super::args::SifCheck;
@@ -83,7 +83,7 @@ fn text(specification: &Specification, counts: &[Vec<Counts>]) -> String {
 
 fn lines(specification: &Specification, counts: &Counts) -> String {
     let name = specification.name(counts.output);
-    let number = |count: &Option<String>| count.clone().unwrap_or_else(|| TOO_MANY.to_owned());
+    let number = |count: &Option<String>| count.as_deref().map_or_else(|| TOO_MANY.to_owned(), about);
     let mut rows = vec![
         (format!("valuations of {}", counted(counts.inputs, "input")), valuations(counts.inputs)),
         (format!("with {name} TRUE"), number(&counts.triggers)),

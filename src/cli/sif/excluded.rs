@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
-use petril::sif::{self, Excluded, Limits, Specification};
+use petril::sif::{self, Excluded, Limits, Specification, about};
 use petril::witness::{Column, Table};
 
 use super::args::SifExcluded;
@@ -31,9 +31,9 @@ pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
 fn text(specification: &Specification, function: usize, excluded: &Excluded, width: usize) -> String {
     let name = &specification.functions[function].name;
     let (Some(triggering), Some(count)) = (&excluded.triggering, &excluded.excluded) else {
-        return format!("{name}: {} valuations, too many to tell which are excluded\n", excluded.valuations);
+        return format!("{name}: {} valuations, too many to tell which are excluded\n", about(&excluded.valuations));
     };
-    let all = &excluded.valuations;
+    let (all, triggering, count) = (about(&excluded.valuations), about(triggering), about(count));
     let mut out =
         format!("{name}: of {all} valuations, {triggering} make an output TRUE; {count} of these are excluded\n");
     if excluded.by_restriction.is_empty() {
@@ -43,7 +43,7 @@ fn text(specification: &Specification, function: usize, excluded: &Excluded, wid
     let mut table = Table::new(vec![vec![Column::left("restriction")], heads, vec![Column::left("which says")]]);
     for (position, its, only) in &excluded.by_restriction {
         let restriction = &specification.restrictions[*position];
-        table.row(vec![restriction.name.clone(), its.clone(), only.clone(), restriction.text.clone()]);
+        table.row(vec![restriction.name.clone(), about(its), about(only), restriction.text.clone()]);
     }
     out += &format!("\n{}\n", table.within(width));
     match &excluded.listed {

@@ -19,6 +19,7 @@ mod pool;
 mod sample;
 mod study;
 
+pub use all::about;
 pub use excluded::excluded;
 pub use limits::Limits;
 pub use study::Study;

@@ -1,7 +1,7 @@
 //! Whether a program computes what is specified: each output, at the end of every scan, is its formula over the inputs of that
 //! scan, as long as scans keep the restrictions.
 //!
-//! A scan as gates and the specification go to a solver ([`search`](self::search)). What it finds wrong is replayed by the
+//! A scan as gates and the specification go to a solver (`search.rs`). What it finds wrong is replayed by the
 //! interpreter before it is shown; what it proves is confirmed in another way where that is possible. Programs without gates
 //! are explored by the interpreter, scan by scan.
 
