@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::Runner;
 use super::mutants::Mutant;
-use crate::flat::FlatProgram;
+use crate::flat::{FlatProgram, Target};
+use crate::semantics::VarId;
 use crate::sif::Plan;
 
 /// What became of a program with a fault.
@@ -51,11 +52,25 @@ impl Hunt {
 /// Runs tests on programs with one fault each. What they do not find, `decide` looks at.
 #[must_use]
 pub fn hunt(runner: &Runner<'_>, plans: &[Plan], mutants: Vec<Mutant>, decide: &Decide<'_>) -> Hunt {
+    // Most faults are found by the tests of the function whose output is written next.
+    let written: Vec<Option<usize>> = plans.iter().map(|plan| written(runner, plan)).collect();
+    let nearest = |line: usize| {
+        let behind = (0..plans.len()).filter(|&plan| written[plan].is_some_and(|written| written >= line));
+        behind.min_by_key(|&plan| written[plan]).unwrap_or(0)
+    };
     let fates = mutants.into_par_iter().map(|mutant| {
         let program = mutant.of(runner.program());
-        let found = runner.with(&program).first_not_passed(plans);
+        let found = runner.with(&program).first_not_passed(plans, nearest(mutant.line));
         let fate = found.map_or_else(|| decide(&program), |(plan, test)| Fate::Found(plan, test));
         (mutant, fate)
     });
     Hunt { mutants: fates.collect() }
+}
+
+/// The last line that writes an output of a plan's function.
+fn written(runner: &Runner<'_>, plan: &Plan) -> Option<usize> {
+    let outputs = &runner.specification().functions[plan.function].outputs;
+    let variables: Vec<VarId> = outputs.iter().filter_map(|output| runner.variable(*output)).collect();
+    let is_one = |target| matches!(target, Target::Variable(id) if variables.contains(&id));
+    runner.program().code.iter().rposition(|line| line.instruction.writes().is_some_and(is_one))
 }

@@ -179,11 +179,14 @@ impl<'a> Runner<'a> {
         plans.iter().map(|plan| run.plan(plan)).collect()
     }
 
-    /// The first test that is not passed: its plan and its position.
+    /// The first test that is not passed: its plan and its position. If each test begins with power-on, plans are tried from this
+    /// one on, and those before it last.
     #[must_use]
-    pub fn first_not_passed(&self, plans: &[Plan]) -> Option<(usize, usize)> {
+    pub fn first_not_passed(&self, plans: &[Plan], from: usize) -> Option<(usize, usize)> {
         let mut run = Run::new(self);
-        plans.iter().enumerate().find_map(|(number, plan)| {
+        let from = if self.start == Start::PowerOn { from } else { 0 };
+        let plans = plans.iter().enumerate();
+        plans.clone().skip(from).chain(plans.take(from)).find_map(|(number, plan)| {
             let scans = run.model.scans(&plan.touched);
             let mut tests = plan.tests.iter();
             tests.position(|test| run.test(plan, test, scans).ending != Ending::Passed).map(|test| (number, test))
