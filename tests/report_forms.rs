@@ -11,27 +11,8 @@ use std::process::Command;
 use petril::exchange::{Checked, Stamp, html, sarif};
 use petril::source::Source;
 use serde_json::Value;
-use support::forms::{EXAMPLES, example, root, situations};
+use support::forms::{EXAMPLES, example, root, schema, situations};
 use support::process::{Run, petril, run};
-
-/// The schema of the project, made stricter: members that it does not know are errors. So nothing is reported that is not
-/// described.
-fn own_schema() -> jsonschema::Validator {
-    fn close(schema: &mut Value) {
-        if let Value::Object(members) = schema {
-            if members.contains_key("properties") && members.contains_key("required") {
-                members.insert("additionalProperties".to_owned(), Value::Bool(false));
-            }
-            members.values_mut().for_each(close);
-        } else if let Value::Array(items) = schema {
-            items.iter_mut().for_each(close);
-        }
-    }
-    let mut schema = read_json(&root().join("docs/schema/report.schema.json"));
-    assert!(jsonschema::draft202012::meta::is_valid(&schema));
-    close(&mut schema);
-    jsonschema::draft202012::new(&schema).unwrap()
-}
 
 fn read_json(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
@@ -55,7 +36,7 @@ fn all() -> Vec<(Option<i32>, Vec<String>)> {
 
 #[test]
 fn json_is_as_the_schema_says() {
-    let schema = own_schema();
+    let schema = schema("report");
     for (code, mut arguments) in all() {
         arguments.push("--json".to_owned());
         let run = petril(&root(), &arguments);
@@ -77,7 +58,7 @@ fn the_last_scan_is_told_line_by_line() {
     fs::write(folder.path().join("p.il"), text).unwrap();
     let run = petril(folder.path(), &["check", "p.il", "-r", "AG !r", "--json", "--by-line"]);
     let document = json(&run);
-    must_be_valid(&own_schema(), &document, "by line");
+    must_be_valid(&schema("report"), &document, "by line");
     let lines = document["requirements"][0]["trace"]["last_scan"].as_array().unwrap();
     let told: Vec<String> = lines
         .iter()

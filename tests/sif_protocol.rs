@@ -11,7 +11,7 @@ use std::process::Command;
 use base64::Engine as _;
 use serde_json::{Value, json};
 use support::browser::Browser;
-use support::forms::root;
+use support::forms::{root, schema};
 use support::process::{Run, petril, run};
 use support::sif_system::{LARGE, made};
 
@@ -49,28 +49,9 @@ fn json(run: &Run) -> Value {
     serde_json::from_str(&run.stdout).unwrap_or_else(|e| panic!("{e}\n{}\n{}", run.stdout, run.stderr))
 }
 
-/// The schema of the project; members that it does not know are errors.
-fn schema() -> jsonschema::Validator {
-    fn close(schema: &mut Value) {
-        if let Value::Object(members) = schema {
-            if members.contains_key("properties") && members.contains_key("required") {
-                members.insert("additionalProperties".to_owned(), Value::Bool(false));
-            }
-            members.values_mut().for_each(close);
-        } else if let Value::Array(items) = schema {
-            items.iter_mut().for_each(close);
-        }
-    }
-    let text = fs::read_to_string(root().join("docs/schema/sif-tests.schema.json")).unwrap();
-    let mut schema: Value = serde_json::from_str(&text).unwrap();
-    assert!(jsonschema::draft202012::meta::is_valid(&schema));
-    close(&mut schema);
-    jsonschema::draft202012::new(&schema).unwrap()
-}
-
 #[test]
 fn every_form_is_valid_and_says_the_same() {
-    let schema = schema();
+    let schema = schema("sif-tests");
     for (code, arguments) in situations() {
         let (made, folder) = forms(&arguments);
         let what = arguments.join(" ");

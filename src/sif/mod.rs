@@ -41,8 +41,6 @@ pub use faults::Class;
 pub use formula::{Formula, Operator, SignalId};
 pub use plan::{ClassCoverage, Coverage, Criterion, Excluded, Missed, Plan, Test};
 pub use requirements::requirements;
-pub use run::{
-    Decide, Deviation, Ending, Fate, Hunt, Mutant, PlanRun, Runner, Start, TestRun, hunt, mutants, remembers,
-};
+pub use run::{Decide, Deviation, Ending, Fate, Hunt, Mutant, PlanRun, Runner, Start, TestRun, hunt, mutants};
 pub use solver::{Answer, Literal, Solver, Stop};
 pub use specification::{Binding, Function, Kind, Place, Restriction, Scope, Signal, Specification, Zone};

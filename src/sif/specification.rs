@@ -160,6 +160,17 @@ impl Specification {
         }
     }
 
+    /// What a signal is computed from, and reset by, in the order in which the formulas name it; nothing for an input.
+    #[must_use]
+    pub fn uses(&self, id: SignalId) -> Vec<SignalId> {
+        match &self.signals[id.0].kind {
+            Kind::Input { .. } => Vec::new(),
+            Kind::Defined { formula, latched, .. } => {
+                formula.signals().into_iter().chain(latched.iter().flat_map(Formula::signals)).collect()
+            }
+        }
+    }
+
     /// A formula as it is written.
     #[must_use]
     pub fn text(&self, formula: &Formula) -> String {

@@ -1,6 +1,9 @@
 //! Reports in many situations, and programs whose names and texts are meant to do harm.
 
+use std::fs;
 use std::path::{Path, PathBuf};
+
+use serde_json::Value;
 
 /// Examples and the net and requirement file they are checked with.
 pub const EXAMPLES: [(&str, &str); 16] = [
@@ -25,6 +28,26 @@ pub const EXAMPLES: [(&str, &str); 16] = [
 /// The folder in which the names of examples mean something.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+/// A schema of the project, made stricter: members that it does not know are errors. So nothing is reported that is not
+/// described.
+pub fn schema(name: &str) -> jsonschema::Validator {
+    fn close(schema: &mut Value) {
+        if let Value::Object(members) = schema {
+            if members.contains_key("properties") && members.contains_key("required") {
+                members.insert("additionalProperties".to_owned(), Value::Bool(false));
+            }
+            members.values_mut().for_each(close);
+        } else if let Value::Array(items) = schema {
+            items.iter_mut().for_each(close);
+        }
+    }
+    let text = fs::read_to_string(root().join(format!("docs/schema/{name}.schema.json"))).unwrap();
+    let mut schema: Value = serde_json::from_str(&text).unwrap();
+    assert!(jsonschema::draft202012::meta::is_valid(&schema));
+    close(&mut schema);
+    jsonschema::draft202012::new(&schema).unwrap()
 }
 
 /// The arguments that check an example.

@@ -1,7 +1,6 @@
 //! `petril sif excluded`: what restrictions take away from the tests.
 
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
 use petril::sif::{self, Excluded, Limits, Specification, about};
@@ -16,7 +15,7 @@ pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
     progress::listen();
     let read = specification(&arguments.specification, console)?;
     let functions = planned::functions(&arguments.function, &read.specification)?;
-    let limits = Limits { stop: Arc::new(progress::is_interrupted), tests: arguments.limit, ..Limits::default() };
+    let limits = Limits { tests: arguments.limit, ..planned::limits() };
     let (mut texts, mut is_counted) = (Vec::new(), true);
     for function in functions {
         let excluded = sif::excluded(&read.specification, function, &limits);

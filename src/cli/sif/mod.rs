@@ -14,7 +14,7 @@ mod valuations;
 use std::path::{Path, PathBuf};
 
 use petril::diagnostic::any_error;
-use petril::sif::Specification;
+use petril::sif::{Located, Specification};
 use petril::source::Source;
 
 use super::console::Console;
@@ -53,4 +53,14 @@ fn specification(paths: &[PathBuf], console: &Console) -> Result<Read, Failure> 
         Some(specification) if !diagnostics.iter().any(|list| any_error(list)) => Ok(Read { specification, sources }),
         _ => Err(Failure::Reported),
     }
+}
+
+/// Prints what stands for nothing in the program.
+fn unbound(found: &[Located], sources: &[Source], console: &Console) -> Failure {
+    for (file, source) in sources.iter().enumerate() {
+        let own: Vec<_> =
+            found.iter().filter(|(of, _)| *of == file).map(|(_, diagnostic)| diagnostic.clone()).collect();
+        console.diagnostics(&own, source);
+    }
+    Failure::Reported
 }

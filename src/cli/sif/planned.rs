@@ -30,24 +30,26 @@ pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<
 }
 
 /// The tests that a criterion chooses.
-pub fn made(specification: &Specification, functions: &[usize], criterion: Criterion) -> Vec<Plan> {
-    functions.par_iter().map(|&function| plan(specification, function, criterion, &limits())).collect()
+pub fn made(specification: &Specification, functions: &[usize], criterion: Criterion, limits: &Limits) -> Vec<Plan> {
+    functions.par_iter().map(|&function| plan(specification, function, criterion, limits)).collect()
 }
 
 /// What is left out of these plans.
-pub fn left_out(specification: &Specification, plans: &[Plan]) -> Vec<Excluded> {
-    plans.par_iter().map(|plan| excluded(specification, plan.function, &limits())).collect()
+pub fn left_out(specification: &Specification, plans: &[Plan], limits: &Limits) -> Vec<Excluded> {
+    plans.par_iter().map(|plan| excluded(specification, plan.function, limits)).collect()
 }
 
-fn limits() -> Limits {
+/// The usual limits, until somebody interrupts the work.
+pub fn limits() -> Limits {
     Limits { stop: Arc::new(progress::is_interrupted), ..Limits::default() }
 }
 
-/// The tests of a table, of these functions.
+/// The tests of a table, of these functions, with the faults that they find.
 pub fn read(
     path: &Path,
     specification: &Specification,
     functions: &[usize],
+    limits: &Limits,
     console: &Console,
 ) -> Result<Vec<Plan>, Failure> {
     let source = source(path, MAX_TEXT, console)?;
@@ -58,7 +60,7 @@ pub fn read(
     let mut plans: Vec<Plan> = plans.into_iter().filter(|plan| functions.contains(&plan.function)).collect();
     plans.par_iter_mut().for_each(|plan| {
         let tests: Vec<_> = plan.tests.iter().map(|test| test.values.clone()).collect();
-        plan.coverage = coverage_of(specification, plan.function, &tests, &limits());
+        plan.coverage = coverage_of(specification, plan.function, &tests, limits);
     });
     if plans.is_empty() {
         return Err(Failure::Message(format!("`{}` has no test of these functions", path.display())));

@@ -8,13 +8,13 @@ use std::time::Instant;
 use petril::exchange::proof as exchanged;
 use petril::semantics::Role;
 use petril::sif::proof::{Answer, By, Confirmed, Failure, Form, Options, Outcome, Proof, Scan, Subject, prove};
-use petril::sif::{Kind, SignalId, Specification};
+use petril::sif::{Kind, SignalId};
 use petril::source::Source;
 use petril::verdict::Verdict;
 use petril::witness::{Column, Table};
 
 use super::args::SifProve;
-use super::specification;
+use super::{planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::report::{counted, indent};
 use crate::cli::{self, check, input, progress};
@@ -25,18 +25,10 @@ pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     // Both are read before anything is given up, so that all errors are seen at once.
     let program = input::program(program, &arguments.meaning.reading, console)?;
     let read = read?;
-    let functions = functions(&read.specification, &arguments.function)?;
+    let functions = planned::functions(&arguments.function, &read.specification)?;
     let tolerated = arguments.meaning.tolerated();
-    let subject = match Subject::new(&read.specification, &program.flat, tolerated, &functions) {
-        Ok(subject) => subject,
-        Err(located) => {
-            for (file, source) in read.sources.iter().enumerate() {
-                let own: Vec<_> = located.iter().filter(|(of, _)| *of == file).map(|(_, d)| d.clone()).collect();
-                console.diagnostics(&own, source);
-            }
-            return Err(cli::Failure::Reported);
-        }
-    };
+    let subject = Subject::new(&read.specification, &program.flat, tolerated, &functions)
+        .map_err(|found| unbound(&found, &read.sources, console))?;
     progress::listen();
     let (started, timeout) = (Instant::now(), arguments.timeout);
     let stop = move || progress::is_interrupted() || timeout.is_some_and(|timeout| started.elapsed() > timeout);
@@ -62,19 +54,6 @@ fn split(files: &[PathBuf]) -> Result<(&PathBuf, &[PathBuf]), cli::Failure> {
         Some((program, specifications)) if !is_specification(program) => Ok((program, specifications)),
         _ => Err(cli::Failure::Message("the last file has to be the program, after the specification".to_owned())),
     }
-}
-
-/// The positions of these functions.
-fn functions(specification: &Specification, names: &[String]) -> Result<Vec<usize>, cli::Failure> {
-    let find = |name: &String| {
-        let position = specification.functions.iter().position(|own| own.name.eq_ignore_ascii_case(name));
-        position.ok_or_else(|| {
-            let known = specification.functions.iter().map(|own| own.name.as_str());
-            let near = petril::diagnostic::nearest(name, known).map(|near| format!("; did you mean `{near}`?"));
-            cli::Failure::Message(format!("the specification has no function `{name}`{}", near.unwrap_or_default()))
-        })
-    };
-    names.iter().map(find).collect()
 }
 
 /// A proof as text for people.

@@ -8,12 +8,12 @@ use std::time::Instant;
 use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
 use petril::flat::{FlatProgram, Tolerated};
 use petril::sif::proof::{self, Options, Subject, prove};
-use petril::sif::{Ending, Fate, Hunt, Located, Mutant, Runner, Specification, Start, hunt, mutants};
+use petril::sif::{Ending, Fate, Hunt, Mutant, Runner, Specification, Start, hunt, mutants};
 use petril::verdict::Verdict;
 use petril::witness::{Column, Table};
 
 use super::args::SifRun;
-use super::{Read, planned, specification};
+use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
@@ -29,9 +29,10 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     let Program { flat, source } = program(&arguments.program, &arguments.meaning.reading, console)?;
     let functions = planned::functions(&arguments.function, &specification)?;
+    let limits = planned::limits();
     let plans = match &arguments.tests {
-        Some(path) => planned::read(path, &specification, &functions, console)?,
-        None => planned::made(&specification, &functions, arguments.criterion),
+        Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
+        None => planned::made(&specification, &functions, arguments.criterion, &limits),
     };
     let start = if arguments.continued { Start::Continued } else { Start::PowerOn };
     let runner = Runner::new(&specification, &flat, arguments.meaning.tolerated(), start, &plans);
@@ -47,8 +48,8 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
         hunt(&runner, &plans, mutants(&flat, &source), &decide)
     });
-    let excluded =
-        if arguments.html.is_some() || arguments.json { planned::left_out(&specification, &plans) } else { Vec::new() };
+    let is_told = arguments.json || arguments.html.is_some();
+    let excluded = if is_told { planned::left_out(&specification, &plans, &limits) } else { Vec::new() };
     let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
     let ran = Ran { runner: &runner, source: &source, results: &results, hunt: found.as_ref() };
     let sheets = Sheets {
@@ -100,16 +101,6 @@ fn decide(specification: &Specification, program: &FlatProgram, tolerated: Toler
             Fate::Undecided(why.or(failing).unwrap_or_default())
         }
     }
-}
-
-/// Prints what stands for nothing in the program.
-fn unbound(found: &[Located], sources: &[petril::source::Source], console: &Console) -> Failure {
-    for (file, source) in sources.iter().enumerate() {
-        let own: Vec<_> =
-            found.iter().filter(|(of, _)| *of == file).map(|(_, diagnostic)| diagnostic.clone()).collect();
-        console.diagnostics(&own, source);
-    }
-    Failure::Reported
 }
 
 /// Refuses two forms in one file.

@@ -1,10 +1,9 @@
 //! `petril sif tests`: tests by a criterion or given ones, and which faults they find.
 
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use petril::exchange::sif::{Sheets, html, json, plan_csv};
-use petril::sif::{self, Criterion, Excluded, Limits, Plan, Specification, Study};
+use petril::sif::{Criterion, Limits, Plan, Specification, Study};
 use petril::witness::{Column, Table};
 use rayon::prelude::*;
 
@@ -24,27 +23,17 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     progress::listen();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     let functions = planned::functions(&arguments.function, &specification)?;
-    let limits = Limits { stop: Arc::new(progress::is_interrupted), tests: arguments.limit, ..Limits::default() };
+    let limits = Limits { tests: arguments.limit, ..planned::limits() };
     if arguments.compare {
         return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
     }
-    let plans: Vec<Plan> = match &arguments.tests {
-        Some(path) => {
-            let mut plans = planned::read(path, &specification, &functions, console)?;
-            plans.par_iter_mut().for_each(|plan| judge(&specification, plan, &limits));
-            plans
-        }
-        None => functions
-            .par_iter()
-            .map(|&function| sif::plan(&specification, function, arguments.criterion, &limits))
-            .collect(),
+    let plans = match &arguments.tests {
+        Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
+        None => planned::made(&specification, &functions, arguments.criterion, &limits),
     };
     let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
-    let excluded: Vec<Excluded> = if arguments.json || arguments.html.is_some() {
-        plans.par_iter().map(|plan| sif::excluded(&specification, plan.function, &limits)).collect()
-    } else {
-        Vec::new()
-    };
+    let is_told = arguments.json || arguments.html.is_some();
+    let excluded = if is_told { planned::left_out(&specification, &plans, &limits) } else { Vec::new() };
     let sheets = Sheets {
         specification: &specification,
         sources: &sources,
@@ -70,12 +59,6 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     }
     let is_all = plans.iter().all(|plan| plan.incomplete.is_none());
     Ok(if is_all { SUCCESS } else { ExitCode::from(3) })
-}
-
-/// Finds out which faults given tests find.
-fn judge(specification: &Specification, plan: &mut Plan, limits: &Limits) {
-    let tests: Vec<_> = plan.tests.iter().map(|test| test.values.clone()).collect();
-    plan.coverage = sif::coverage_of(specification, plan.function, &tests, limits);
 }
 
 /// Everything about the tests of one function.

@@ -207,20 +207,8 @@ impl<'a> Inside<'a> {
         let mut left = vec![signal];
         while let Some(signal) = left.pop() {
             if !self.seen.put(signal.0) {
-                left.extend(uses(self.specification, signal));
+                left.extend(self.specification.uses(signal));
             }
-        }
-    }
-}
-
-/// What a signal is computed from.
-fn uses(specification: &Specification, signal: SignalId) -> Vec<SignalId> {
-    match &specification.signals[signal.0].kind {
-        Kind::Input { .. } => Vec::new(),
-        Kind::Defined { formula, latched, .. } => {
-            let mut used = formula.signals();
-            used.extend(latched.iter().flat_map(Formula::signals));
-            used
         }
     }
 }
@@ -234,7 +222,7 @@ fn in_order(specification: &Specification, needed: &FixedBitSet) -> Result<Vec<S
     loop {
         let before = order.len();
         left.retain(|&id| {
-            let waits = uses(specification, id).iter().any(|used| waiting.contains(used.0));
+            let waits = specification.uses(id).iter().any(|used| waiting.contains(used.0));
             if !waits {
                 waiting.set(id.0, false);
                 order.push(id);

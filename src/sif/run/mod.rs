@@ -7,12 +7,12 @@ mod mutants;
 use fixedbitset::FixedBitSet;
 
 use super::binding::{Binder, Located};
-use super::{Formula, Kind, Plan, SignalId, Specification, Test};
+use super::{Kind, Plan, SignalId, Specification, Test};
 use crate::explore::Failure;
 use crate::flat::{FlatProgram, Tolerated};
 use crate::interpret::Machine;
 use crate::semantics::{Role, VarId};
-use model::{Model, uses};
+use model::Model;
 
 pub use hunt::{Decide, Fate, Hunt, hunt};
 pub use mutants::{Mutant, mutants};
@@ -125,7 +125,7 @@ impl<'a> Runner<'a> {
                 if matches!(specification.signal(id).kind, Kind::Input { .. }) {
                     binder.bind(id);
                 }
-                left.extend(uses(specification, id).into_iter().rev());
+                left.extend(specification.uses(id).into_iter().rev());
             }
         }
         specification.inputs().for_each(|input| _ = binder.bind_if_there(input));
@@ -279,24 +279,4 @@ impl<'r> Run<'r> {
 /// Whether an output has a delay of its own.
 fn is_delayed(specification: &Specification, output: SignalId) -> bool {
     matches!(specification.signal(output).kind, Kind::Defined { delayed: Some(_), .. })
-}
-
-/// Whether an output remembers something, or something that it is computed from.
-#[must_use]
-pub fn remembers(specification: &Specification, output: SignalId) -> bool {
-    let mut seen = FixedBitSet::with_capacity(specification.signals.len());
-    let mut left = vec![output];
-    while let Some(id) = left.pop() {
-        let latch: Option<&Formula> = match &specification.signal(id).kind {
-            Kind::Defined { latched, .. } => latched.as_ref(),
-            Kind::Input { .. } => None,
-        };
-        if latch.is_some() {
-            return true;
-        }
-        if !seen.put(id.0) {
-            left.extend(uses(specification, id));
-        }
-    }
-    false
 }

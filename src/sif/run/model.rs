@@ -2,7 +2,7 @@
 
 use fixedbitset::FixedBitSet;
 
-use crate::sif::{Formula, Kind, SignalId, Specification};
+use crate::sif::{Kind, SignalId, Specification};
 
 /// What a system that is as specified does, from power-on.
 #[derive(Clone, Debug)]
@@ -59,22 +59,12 @@ impl<'s> Model<'s> {
         let mut scans = vec![0_u64; self.specification.signals.len()];
         for &id in &self.order {
             let Kind::Defined { delayed, .. } = &self.specification.signal(id).kind else { continue };
-            let before = uses(self.specification, id).into_iter().map(|used| scans[used.0]).max().unwrap_or(0);
+            let before = self.specification.uses(id).into_iter().map(|used| scans[used.0]).max().unwrap_or(0);
             let own = delayed.map_or(0, |delay| u64::from(delay).div_ceil(self.cycle.max(1)));
             // Of several delays in a row, each begins with the scan in which the one before ends, or with the next one.
             scans[id.0] = before + own + u64::from(before > 0 && own > 0);
         }
         signals.iter().map(|signal| scans[signal.0]).max().unwrap_or(0) + 1
-    }
-}
-
-/// What a signal is computed from.
-pub(super) fn uses(specification: &Specification, signal: SignalId) -> Vec<SignalId> {
-    match &specification.signal(signal).kind {
-        Kind::Input { .. } => Vec::new(),
-        Kind::Defined { formula, latched, .. } => {
-            formula.signals().into_iter().chain(latched.iter().flat_map(Formula::signals)).collect()
-        }
     }
 }
 
@@ -86,7 +76,7 @@ fn order(specification: &Specification) -> Vec<SignalId> {
     loop {
         let before = order.len();
         left.retain(|&id| {
-            let waits = uses(specification, id).iter().any(|used| *used != id && waiting.contains(used.0));
+            let waits = specification.uses(id).iter().any(|used| *used != id && waiting.contains(used.0));
             if !waits {
                 waiting.set(id.0, false);
                 order.push(id);
