@@ -72,6 +72,8 @@ pub struct Scope {
     pub rows: Vec<String>,
     /// `VAR … END_VAR` of loops, as many as the body needs.
     pub loops: usize,
+    /// Whether values are only moved, so that variables need few bits.
+    pub plain: bool,
 }
 
 impl Scope {
@@ -124,7 +126,8 @@ pub fn text(choices: &mut Choices<'_>) -> String {
     let global = Of::Plain(choices.ty());
     text += &format!("VAR_GLOBAL g0 : {} := {}; END_VAR\n", global.name(), literal(choices, global, false));
     text += "VAR_GLOBAL late : TON; END_VAR\nVAR_GLOBAL CONSTANT limit : USINT := 3; END_VAR\n";
-    let mut making = Making { choices, types: [element, other].map(Of::Plain), global, units: Vec::new() };
+    let plain = choices.pick(4) == 0;
+    let mut making = Making { choices, plain, types: [element, other].map(Of::Plain), global, units: Vec::new() };
     for number in 0..making.choices.pick(3) {
         text += &making.function(number);
     }
@@ -141,6 +144,7 @@ pub fn text(choices: &mut Choices<'_>) -> String {
 
 struct Making<'c, 'n> {
     choices: &'c mut Choices<'n>,
+    plain: bool,
     /// Of the members `n` and `m` of a `Pair`.
     types: [Of; 2],
     global: Of,
@@ -159,7 +163,7 @@ impl Making<'_, '_> {
     /// What units may call.
     fn scope(&self) -> Scope {
         let functions = self.units.iter().filter(|unit| unit.result.is_some()).cloned().collect();
-        Scope { functions, ..Scope::default() }
+        Scope { functions, plain: self.plain, ..Scope::default() }
     }
 
     /// `VAR_INPUT x0 : INT; … END_VAR`
@@ -379,6 +383,10 @@ impl Making<'_, '_> {
                     scope.row("sints");
                 }
             }
+        }
+        if self.choices.pick(8) == 0 {
+            text += "VAR delays : ARRAY [1..2] OF TON; END_VAR\n";
+            standard().iter().filter(|unit| unit.name == "TON").for_each(|unit| scope.instance("delays[2]", unit));
         }
         if self.choices.pick(3) == 0 {
             let units = standard();
