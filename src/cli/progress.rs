@@ -9,6 +9,7 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
+use super::guard::{self, Reason};
 
 /// Watches a search.
 pub struct Watcher {
@@ -22,27 +23,6 @@ pub struct Watcher {
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
 
-/// When whoever started the program wanted it to end.
-static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
-
-/// A signal so soon after another is the same one, sent to the program and to its group.
-const TWICE: Duration = Duration::from_millis(500);
-
-/// From now on, Ctrl-C ends the search, and the second one the program.
-pub fn listen() {
-    // If nobody can be told, Ctrl-C ends the program as usual.
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
-            std::process::exit(130);
-        }
-    });
-}
-
-/// Whether whoever started the program wants it to end.
-pub fn is_interrupted() -> bool {
-    INTERRUPTED.get().is_some()
-}
-
 /// Sets the number of threads, once.
 pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
     static THREADS: OnceLock<Option<String>> = OnceLock::new();
@@ -55,10 +35,10 @@ pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
 }
 
 impl Watcher {
-    /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
+    /// Sets the number of threads, and begins to watch.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
-        listen();
+        guard::listen();
         // Drawn on standard error, and only if that is a terminal.
         Self::drawing(limits, ProgressDrawTarget::stderr())
     }
@@ -101,11 +81,8 @@ impl Watcher {
                 )
             });
         }
-        if is_interrupted() {
-            return Some("interrupted".to_owned());
-        }
-        let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
-        Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
+        let own = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
+        guard::asked().or(own).map(|reason| reason.to_string())
     }
 
     /// Does something while the figures are off the terminal.
