@@ -196,9 +196,9 @@ pub struct Limits {
     /// Stop after this many states [default: 100,000,000, for `net info` 2,000,000].
     #[arg(long, value_name = "N")]
     pub max_states: Option<u64>,
-    /// Stop when states and steps take this much memory, in MiB.
-    #[arg(long, value_name = "MIB", default_value_t = 8192)]
-    pub max_memory: u64,
+    /// Stop when this much memory is in use, in MiB [default: half of the machine's memory, or of its control group's].
+    #[arg(long, value_name = "MIB")]
+    pub max_memory: Option<u64>,
     /// Stop exploring after this many seconds.
     #[arg(long, value_name = "SECONDS")]
     pub timeout: Option<f64>,

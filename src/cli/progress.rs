@@ -9,18 +9,26 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
+use super::memory;
 
 /// Watches a search.
 pub struct Watcher {
     bar: ProgressBar,
     started: Instant,
     timeout: Option<Duration>,
+    /// Bytes that may be in use.
+    memory: u64,
+    /// When memory was last measured, in time since the start.
+    measured: Cell<Duration>,
     /// When the figures were last shown, in time since the start.
     shown: Cell<Duration>,
 }
 
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
+
+/// Between two looks at the memory in use.
+const MEASURED: Duration = Duration::from_millis(10);
 
 /// When whoever started the program wanted it to end.
 static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
@@ -76,10 +84,11 @@ impl Watcher {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
-        Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
+        let memory = limits.budget().bytes;
+        Ok(Self { bar, started: Instant::now(), timeout, memory, measured: Cell::default(), shown: Cell::default() })
     }
 
-    /// Shows the figures; gives a reason to stop if time is up.
+    /// Shows the figures; gives a reason to stop if time is up, or memory.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
@@ -104,8 +113,20 @@ impl Watcher {
         if is_interrupted() {
             return Some("interrupted".to_owned());
         }
-        let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
-        Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
+        if let Some(timeout) = self.timeout.filter(|&timeout| elapsed > timeout) {
+            return Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()));
+        }
+        let used = self.used(elapsed).filter(|&used| used > self.memory)?;
+        Some(format!("the limit of {} MiB was reached: {} MiB are in use", self.memory >> 20, used >> 20))
+    }
+
+    /// Bytes in use, if they are to be measured again.
+    fn used(&self, elapsed: Duration) -> Option<u64> {
+        if elapsed < self.measured.get() + MEASURED {
+            return None;
+        }
+        self.measured.set(elapsed);
+        memory::resident()
     }
 
     /// Does something while the figures are off the terminal.
@@ -127,6 +148,7 @@ impl Limits {
 
     /// The same where so many states are enough if nothing else is said.
     pub fn budget_of(&self, states: u64) -> Budget {
-        Budget { states: self.max_states.unwrap_or(states), bytes: self.max_memory.saturating_mul(1 << 20) }
+        let bytes = self.max_memory.unwrap_or_else(memory::default_limit).saturating_mul(1 << 20);
+        Budget { states: self.max_states.unwrap_or(states), bytes }
     }
 }
