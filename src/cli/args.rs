@@ -9,6 +9,7 @@ use petril::verdict::Examination;
 
 use super::forms::Forms;
 use super::meaning::{Meaning, Reading};
+use super::memory;
 use super::sif::args::SifVerb;
 
 /// Proves PLC programs in IEC 61131-3 Instruction List right, or shows the exact scan in which they go wrong.
@@ -197,9 +198,9 @@ pub struct Limits {
     /// Stop after this many states [default: 100,000,000, for `net info` 2,000,000].
     #[arg(long, value_name = "N")]
     pub max_states: Option<u64>,
-    /// Stop when states and steps take this much memory, in MiB.
-    #[arg(long, value_name = "MIB", default_value_t = 8192)]
-    pub max_memory: u64,
+    /// Stop when this much memory is in use, in MiB [default: half of the machine's memory, or of its control group's].
+    #[arg(long, value_name = "MIB")]
+    pub max_memory: Option<u64>,
     /// Stop exploring after this many seconds.
     #[arg(long, value_name = "SECONDS")]
     pub timeout: Option<f64>,
@@ -214,7 +215,7 @@ pub struct Bounds {
     /// Stop after this many seconds.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub timeout: Option<Duration>,
-    /// Stop when this much memory is in use, in MiB [default: 8192].
+    /// Stop when this much memory is in use, in MiB [default: half of the machine's memory, or of its control group's].
     #[arg(long, value_name = "MIB")]
     pub max_memory: Option<u64>,
 }
@@ -222,7 +223,7 @@ pub struct Bounds {
 impl Bounds {
     /// The limit on memory, in MiB.
     pub fn memory(&self) -> u64 {
-        self.max_memory.unwrap_or(8192)
+        self.max_memory.unwrap_or_else(memory::default_limit)
     }
 }
 
@@ -230,7 +231,7 @@ impl Limits {
     /// The limits on the work as a whole.
     pub fn bounds(&self) -> Bounds {
         let timeout = self.timeout.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-        Bounds { timeout, max_memory: Some(self.max_memory) }
+        Bounds { timeout, max_memory: self.max_memory }
     }
 }
 

@@ -2,7 +2,6 @@
 //! that does not is ended a little later, with a message.
 
 use std::fmt;
-use std::fs;
 use std::io::{self, Write};
 use std::process::exit;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -13,7 +12,7 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 
 use super::args::Bounds;
-use super::output;
+use super::{memory, output};
 
 /// Why work is to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +21,15 @@ pub enum Reason {
     Interrupted,
     /// The time limit was reached.
     Time(Duration),
-    /// The limit on memory was reached, in MiB.
-    Memory(u64),
+    /// The limit on memory was reached, in MiB, by what is in use.
+    Memory { limit: u64, used: u64 },
+}
+
+impl Reason {
+    /// The reason that more memory is in use than this limit, in MiB.
+    pub fn memory(limit: u64) -> Self {
+        Self::Memory { limit, used: used() }
+    }
 }
 
 impl fmt::Display for Reason {
@@ -31,7 +37,7 @@ impl fmt::Display for Reason {
         match self {
             Self::Interrupted => write!(f, "interrupted"),
             Self::Time(limit) => write!(f, "the time limit of {} s was reached", limit.as_secs_f64()),
-            Self::Memory(limit) => write!(f, "the memory limit of {limit} MiB was reached"),
+            Self::Memory { limit, used } => write!(f, "the limit of {limit} MiB was reached: {used} MiB are in use"),
         }
     }
 }
@@ -53,9 +59,8 @@ struct Guard {
 
 static GUARD: OnceLock<Guard> = OnceLock::new();
 static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
-static IS_MEMORY_FULL: AtomicBool = AtomicBool::new(false);
-/// The most memory seen, in MiB.
-static MEMORY: AtomicU64 = AtomicU64::new(0);
+/// Memory in use, in MiB.
+static USED: AtomicU64 = AtomicU64::new(0);
 /// Whether the work asks if it is to stop.
 static IS_ASKING: AtomicBool = AtomicBool::new(false);
 /// Threads that wait for a reader of their output.
@@ -99,7 +104,7 @@ pub fn asked() -> Option<Reason> {
     if let Some(limit) = guard.timeout.filter(|&limit| guard.started.elapsed() > limit) {
         return Some(Reason::Time(limit));
     }
-    IS_MEMORY_FULL.load(Ordering::Relaxed).then_some(Reason::Memory(guard.memory))
+    (used() > guard.memory).then(|| Reason::memory(guard.memory))
 }
 
 /// Whether the work is to stop.
@@ -110,6 +115,11 @@ pub fn is_asked() -> bool {
 /// Whether whoever started the program wants it to end.
 pub fn is_interrupted() -> bool {
     INTERRUPTED.get().is_some()
+}
+
+/// Memory in use, in MiB.
+pub fn used() -> u64 {
+    USED.load(Ordering::Relaxed)
 }
 
 /// Names the phase that begins.
@@ -130,30 +140,21 @@ fn grace(asked: Duration) -> Duration {
     asked.mul_f64(1.4) + Duration::from_millis(800)
 }
 
-/// Memory that the process has, in MiB. Only Linux is asked; elsewhere the work keeps its own limits alone.
-fn memory() -> Option<u64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kibibytes >> 10)
-}
-
 impl Guard {
     fn keep(&self, ending: Ending) {
         let mut since = None;
         loop {
             thread::sleep(TICK);
-            let used = memory().unwrap_or_default();
-            MEMORY.fetch_max(used, Ordering::Relaxed);
-            let above = |tenths: u64, base| used > (self.memory / 10).saturating_mul(tenths).saturating_add(base);
-            IS_MEMORY_FULL.store(above(12, BASE), Ordering::Relaxed);
+            // A system that does not tell leaves memory to the limits that the work keeps itself.
+            let used = memory::resident().unwrap_or_default() >> 20;
+            USED.store(used, Ordering::Relaxed);
             let Some(reason) = asked() else {
                 since = None;
                 continue;
             };
             let now = self.started.elapsed();
             let end = if IS_ASKING.load(Ordering::Relaxed) { grace(*since.get_or_insert(now)) } else { now };
-            let is_overdue = now >= end || (matches!(reason, Reason::Memory(_)) && above(14, 2 * BASE));
+            let is_overdue = now >= end || used > self.memory.saturating_mul(14) / 10 + BASE;
             let is_paused = PAUSED.load(Ordering::SeqCst) > 0;
             if is_overdue && (!is_paused || reason == Reason::Interrupted) {
                 self.end(reason, ending, is_paused);
@@ -167,8 +168,8 @@ impl Guard {
         let is_interrupted = reason == Reason::Interrupted;
         if !is_paused {
             let phase = *PHASE.lock().unwrap_or_else(PoisonError::into_inner);
-            let (seconds, memory) = (self.started.elapsed().as_secs_f64(), MEMORY.load(Ordering::Relaxed));
-            let message = format!("{reason} while {phase}, after {seconds:.1} s, with {memory} MiB of memory in use");
+            let seconds = self.started.elapsed().as_secs_f64();
+            let message = format!("{reason}, while {phase}, after {seconds:.1} s with {} MiB", used());
             let verdict = if ending.has_verdict { "unknown" } else { "error" };
             let _ = writeln!(io::stderr(), "{verdict}: {message}");
             if ending.wants_json {

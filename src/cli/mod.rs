@@ -19,6 +19,7 @@ mod input_table;
 mod interactive;
 mod manual;
 mod meaning;
+mod memory;
 mod net_check;
 mod net_convert;
 mod net_explore;

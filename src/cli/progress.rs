@@ -10,12 +10,15 @@ use petril::explore::{Budget, Progress};
 use super::Failure;
 use super::args::Limits;
 use super::guard::{self, Reason};
+use super::memory;
 
 /// Watches a search.
 pub struct Watcher {
     bar: ProgressBar,
     started: Instant,
     timeout: Option<Duration>,
+    /// MiB that may be in use.
+    memory: u64,
     /// When the figures were last shown, in time since the start.
     shown: Cell<Duration>,
 }
@@ -56,10 +59,11 @@ impl Watcher {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
-        Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
+        let memory = limits.budget().bytes >> 20;
+        Ok(Self { bar, started: Instant::now(), timeout, memory, shown: Cell::default() })
     }
 
-    /// Shows the figures; gives a reason to stop if time is up.
+    /// Shows the figures; gives a reason to stop if time is up, or memory.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
@@ -81,8 +85,9 @@ impl Watcher {
                 )
             });
         }
-        let own = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
-        guard::asked().or(own).map(|reason| reason.to_string())
+        let time = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
+        let memory = (guard::used() > self.memory).then(|| Reason::memory(self.memory));
+        guard::asked().or(time).or(memory).map(|reason| reason.to_string())
     }
 
     /// Does something while the figures are off the terminal.
@@ -104,6 +109,7 @@ impl Limits {
 
     /// The same where so many states are enough if nothing else is said.
     pub fn budget_of(&self, states: u64) -> Budget {
-        Budget { states: self.max_states.unwrap_or(states), bytes: self.max_memory.saturating_mul(1 << 20) }
+        let bytes = self.max_memory.unwrap_or_else(memory::default_limit).saturating_mul(1 << 20);
+        Budget { states: self.max_states.unwrap_or(states), bytes }
     }
 }
