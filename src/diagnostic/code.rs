@@ -179,6 +179,8 @@ codes! {
     StandardNotSupported = "E0329",
     /// The program is too large when all its calls are written out.
     ProgramTooLarge = "E0330",
+    /// Nothing says of which type a literal is, and that makes a difference.
+    LiteralWithoutType = "W0331",
 
     /// A net file is not what its format asks for.
     NetSyntax = "E0401",
