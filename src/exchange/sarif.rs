@@ -33,6 +33,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let mut properties = json!({
         "verdict": checked.report.verdict().word(),
         "assumptions": checked.report.assumptions,
+        "warnings": checked.report.warnings,
     });
     properties["verdicts"] =
         checked.answers().map(|a| (a.name.clone(), a.outcome.verdict().word().into())).collect::<Map<_, _>>().into();
@@ -65,6 +66,9 @@ fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
         "defaultConfiguration": { "level": level(answer) },
         "properties": { "tags": tags(answer).collect::<Vec<_>>(), "formula": answer.formula },
     });
+    if let Some(remark) = &answer.remark {
+        rule["properties"]["remark"] = remark.clone().into();
+    }
     if let Some(origin) = checked.file_of(answer) {
         rule["properties"]["origin"] = format!("{}:{}:{}", origin.file, origin.line, origin.column).into();
     }

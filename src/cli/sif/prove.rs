@@ -33,7 +33,9 @@ pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     let (started, timeout) = (Instant::now(), arguments.timeout);
     let stop = move || progress::is_interrupted() || timeout.is_some_and(|timeout| started.elapsed() > timeout);
     let options = Options { scans: arguments.scans.into(), stop: Arc::new(stop), ..Options::default() };
-    let proof = prove(&subject, &options);
+    let mut proof = prove(&subject, &options);
+    let warnings = console.warnings();
+    proof.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
     let told = Told { subject: &subject, source: &program.source, sources: &read.sources, proof: &proof, console };
     if arguments.json {
         console.print_json(exchanged::proof(&subject, &proof, &program.source))?;
