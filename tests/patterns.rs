@@ -154,8 +154,8 @@ fn what_is_possible_from_power_on() {
     let petril::verdict::Outcome::Violated(_, Some(why)) = &answer(&report, "r").outcome else {
         panic!("with a reason")
     };
-    let elsewhere = "After other first scans `EF Open` is true, but a requirement must be true after every first scan; whether some \
-                     run from power-on comes there, `reachability(Open)` asks";
+    let elsewhere = "After other first scans `EF Open` is true, but a requirement must be true after every first scan; \
+                     `reachability(Open)` asks whether some run from power-on comes there";
     assert_eq!(why.wanted.last().map(String::as_str), Some(elsewhere));
     // Where no first scan helps, nothing of the kind is said.
     let report = told("EF (Open & !Late)");

@@ -229,8 +229,8 @@ codes! {
     FairnessUnfit = "E0510",
     /// A formula of LTL has a part that cannot stand in it.
     LtlUnfit = "E0511",
-    /// A requirement speaks of the beginning of a run only.
-    RequirementOfBeginning = "W0512",
+    /// A formula speaks of the beginning of a run only.
+    FormulaOfBeginning = "W0512",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

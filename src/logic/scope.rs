@@ -1,4 +1,4 @@
-//! Requirements that speak of the beginning of a run only: something in them stands outside every temporal operator.
+//! Formulas that speak of the beginning of a run only: something in them stands outside every temporal operator.
 
 use super::bind::View;
 use super::formula::{Expression, Formula};
@@ -7,57 +7,74 @@ use super::parse::{Body, Requirement};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// A part of a requirement that is about the first state alone.
+/// A part of a formula that is about the first state alone.
 struct Outside {
     span: Span,
-    /// Whether nothing of the requirement is about later states.
+    /// Whether nothing of the formula is about later states.
     whole: bool,
 }
 
-impl Requirement {
-    /// A warning that all of this, or a part of it, is about the first state alone.
+impl Formula {
+    /// A warning that all of this, or a part of it, is about the first state alone; `text` is the formula as it was written. Who
+    /// writes `at first scan` has said so.
     #[must_use]
-    pub fn doubt(&self, view: View) -> Option<Diagnostic> {
+    pub fn doubt(&self, text: &str, view: View) -> Option<Diagnostic> {
         let Outside { span, whole } = self.outside()?;
-        let what = if whole { "this requirement" } else { "this part of the requirement" };
+        let what = if whole { "this formula" } else { "this part of the formula" };
         let message = format!("{what} speaks of {} only", first(view));
         let meant = match view {
             View::Scan => "; if the first scan is meant, say so: `at first scan -> (…)`",
             View::Transition => "",
         };
-        Some(
-            Diagnostic::new(Code::RequirementOfBeginning, span, message).help(format!("{}{meant}", self.always(whole))),
-        )
+        let help = format!("{}{meant}", always(text, whole, view));
+        Some(Diagnostic::new(Code::FormulaOfBeginning, span, message).help(help))
+    }
+
+    /// The first part that is about the first state alone.
+    fn outside(&self) -> Option<Outside> {
+        let (mut parts, mut looks_ahead) = (Vec::new(), false);
+        of_formula(self, &mut parts, &mut looks_ahead);
+        let is_meant = parts.iter().any(|part| matches!(part.expression, Expression::FirstScan));
+        let first = parts.first().filter(|_| !is_meant)?;
+        Some(Outside { span: if looks_ahead { first.span } else { self.span }, whole: !looks_ahead })
+    }
+}
+
+impl Requirement {
+    /// A warning that all of this, or a part of it, is about the first state alone. Patterns say what they are about.
+    #[must_use]
+    pub fn doubt(&self, view: View) -> Option<Diagnostic> {
+        self.formula()?.doubt(&self.text, view)
     }
 
     /// The same for a report, on one line.
     #[must_use]
     pub fn remark(&self, view: View) -> Option<String> {
-        let Outside { whole, .. } = self.outside()?;
+        let Outside { whole, .. } = self.formula()?.outside()?;
         let what = if whole { "it speaks" } else { "a part of it speaks" };
-        Some(format!("{what} of {} only; {}", first(view), self.always(whole)))
+        Some(format!("{what} of {} only; {}", first(view), always(&self.text, whole, view)))
     }
 
-    /// How to say it of every state.
-    fn always(&self, whole: bool) -> String {
-        let states = "for every scan, write";
-        match self.text.strip_prefix("LTL ") {
-            Some(path) if whole => format!("{states} `LTL G ({})`", path.trim()),
-            Some(_) => format!("{states} all of it under one `LTL G (…)`"),
-            None if whole => format!("{states} `AG ({})`", self.text),
-            None => format!("{states} all of it under one `AG (…)`"),
+    /// The formula, if it was written as one.
+    fn formula(&self) -> Option<&Formula> {
+        match &self.body {
+            Body::Formula(formula) if self.words.is_none() => Some(formula),
+            _ => None,
         }
     }
+}
 
-    /// The first part that is about the first state alone. Patterns say what they are about, and so does `at first scan`.
-    fn outside(&self) -> Option<Outside> {
-        let Body::Formula(formula) = &self.body else { return None };
-        let (mut parts, mut looks_ahead) = (Vec::new(), false);
-        of_formula(formula, &mut parts, &mut looks_ahead);
-        let is_meant =
-            self.words.is_some() || parts.iter().any(|part| matches!(part.expression, Expression::FirstScan));
-        let first = parts.first().filter(|_| !is_meant)?;
-        Some(Outside { span: if looks_ahead { first.span } else { formula.span }, whole: !looks_ahead })
+/// How to say it of every state.
+fn always(text: &str, whole: bool, view: View) -> String {
+    let states = match view {
+        View::Scan => "for every scan, write",
+        View::Transition => "for every marking, write",
+    };
+    match text.strip_prefix("LTL ") {
+        Some(path) if whole => format!("{states} `LTL G ({})`", path.trim()),
+        Some(_) => format!("{states} all of it under one `LTL G (…)`"),
+        None if whole => format!("{states} `AG ({text})`"),
+        None => format!("{states} all of it under one `AG (…)`"),
     }
 }
 

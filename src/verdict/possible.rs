@@ -37,8 +37,8 @@ impl Judge<'_> {
             formula.text(system)
         );
         if let Some(goal) = formula.possibility() {
-            sentence +=
-                &format!("; whether some run from power-on comes there, `reachability({})` asks", goal.text(system));
+            let goal = goal.text(system);
+            sentence += &format!("; `reachability({goal})` asks whether some run from power-on comes there");
         }
         Some(sentence)
     }
