@@ -66,8 +66,11 @@ fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
         "defaultConfiguration": { "level": level(answer) },
         "properties": { "tags": tags(answer).collect::<Vec<_>>(), "formula": answer.formula },
     });
-    if let Some(remark) = &answer.remark {
-        rule["properties"]["remark"] = remark.clone().into();
+    // What holds gives no result, which would say it.
+    if answer.outcome.verdict() == Verdict::Holds
+        && let Some(reason) = checked.reason(answer)
+    {
+        rule["properties"]["reason"] = reason.into();
     }
     if let Some(origin) = checked.file_of(answer) {
         rule["properties"]["origin"] = format!("{}:{}:{}", origin.file, origin.line, origin.column).into();
