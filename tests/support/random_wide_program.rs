@@ -100,7 +100,7 @@ pub fn literal(choices: &mut Choices<'_>, of: Of, anchored: bool) -> String {
     match ty.kind {
         _ if ty.is_bool() => if pattern == 1 { "TRUE" } else { "FALSE" }.to_owned(),
         // Often a few scans.
-        Kind::Time if choices.flag() => format!("T#{}ms", choices.of(&[0, 10, 20, 30, 40, 50, 80, 256])),
+        Kind::Time if choices.flag() => format!("T#{}ms", choices.of(&[0, 10, 20, 21, 30, 40, 41, 256])),
         Kind::Time => format!("{}#{number}ms", choices.of(&["T", "TIME", "t"])),
         Kind::Bits if anchored => format!("{ty}#16#{pattern:X}"),
         Kind::Bits => match choices.pick(3) {
@@ -290,7 +290,16 @@ impl Making<'_, '_> {
             let small = Of::Plain(Type::new(Kind::Unsigned, 8));
             [("limit", false), ("few", false), ("kept", true)].map(|(name, written)| scope.entry(name, small, written));
         }
-        let body = body(self.choices, &mut scope, 5);
+        let mut compared = String::new();
+        if self.choices.pick(3) == 0 {
+            text += "VAR_INPUT gauge : SINT; END_VAR VAR_OUTPUT high : BOOL; END_VAR\n";
+            let (operator, number) = (self.choices.of(&["GT", "GE", "EQ", "NE", "LE", "LT"]), self.choices.pick(8));
+            compared = match self.choices.flag() {
+                true => format!("LD gauge\n{operator} {number}\nST high\n"),
+                false => format!("LD SINT#{number}\n{operator} gauge\nST high\n"),
+            };
+        }
+        let body = compared + &body(self.choices, &mut scope, 5);
         format!("PROGRAM random\n{text}{}{body}END_PROGRAM\n", loops(&scope))
     }
 
