@@ -9,10 +9,12 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
+use super::sign_of_life::{SignOfLife, in_short};
 
 /// Watches a search.
 pub struct Watcher {
     bar: ProgressBar,
+    sign: SignOfLife,
     started: Instant,
     timeout: Option<Duration>,
     /// When the figures were last shown, in time since the start.
@@ -60,15 +62,15 @@ impl Watcher {
         use_threads(limits)?;
         listen();
         // Drawn on standard error, and only if that is a terminal.
-        Self::drawing(limits, ProgressDrawTarget::stderr())
+        Self::drawing(limits, ProgressDrawTarget::stderr(), SignOfLife::start())
     }
 
     /// Watches one search among several, and shows nothing.
     pub fn unseen(limits: &Limits) -> Result<Self, Failure> {
-        Self::drawing(limits, ProgressDrawTarget::hidden())
+        Self::drawing(limits, ProgressDrawTarget::hidden(), SignOfLife::none())
     }
 
-    fn drawing(limits: &Limits, target: ProgressDrawTarget) -> Result<Self, Failure> {
+    fn drawing(limits: &Limits, target: ProgressDrawTarget, sign: SignOfLife) -> Result<Self, Failure> {
         let timeout = match limits.timeout.map(Duration::try_from_secs_f64) {
             Some(Err(error)) => return Err(Failure::Message(format!("--timeout: {error}"))),
             Some(Ok(timeout)) => Some(timeout),
@@ -76,13 +78,21 @@ impl Watcher {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
-        Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
+        Ok(Self { bar, sign, started: Instant::now(), timeout, shown: Cell::default() })
     }
 
     /// Shows the figures; gives a reason to stop if time is up.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
+        if self.sign.is_read() {
+            let (states, rest) = (in_short(progress.states), in_short(progress.states - progress.expanded));
+            self.sign.say(if done {
+                format!("{states} states, checking the requirements")
+            } else {
+                format!("{states} states, {rest} still to expand")
+            });
+        }
         if elapsed > self.shown.get() + PAUSE || (done && elapsed > PAUSE) {
             if self.shown.replace(elapsed).is_zero() {
                 self.bar.enable_steady_tick(Duration::from_millis(100));
@@ -108,6 +118,11 @@ impl Watcher {
         Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
     }
 
+    /// The figures on the terminal, which can make room for something else.
+    pub fn figures(&self) -> ProgressBar {
+        self.bar.clone()
+    }
+
     /// Does something while the figures are off the terminal.
     pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
         self.bar.suspend(work)
@@ -115,6 +130,7 @@ impl Watcher {
 
     /// Clears the figures.
     pub fn finish(&self) {
+        self.sign.end();
         self.bar.finish_and_clear();
     }
 }
