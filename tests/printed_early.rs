@@ -101,13 +101,12 @@ fn a_pipe_gets_a_sign_of_life() {
     };
     let told = run_with("0.02", "60000");
     let lines: Vec<&str> = told.stderr.lines().collect();
-    assert!(!lines.is_empty(), "{}", told.stdout);
+    assert!(lines.iter().any(|line| line.contains(" states, ")), "{}\n{}", told.stderr, told.stdout);
     for line in lines {
         let rest = line.strip_prefix("petril: ").unwrap_or_else(|| panic!("{line}"));
         let (seconds, rest) = rest.split_once(" s").unwrap_or_else(|| panic!("{line}"));
         assert!(seconds.parse::<u64>().is_ok(), "{line}");
-        let is_known = |rest: &str| rest.contains(" states, ");
-        assert!(rest.is_empty() || rest.starts_with(", ") && is_known(rest), "{line}");
+        assert!(rest.starts_with(", ") && rest.len() > 2, "{line}");
     }
     assert_eq!(run_with("0", "60000").stderr, "");
     assert_eq!(run_with("", "100").stderr, "");

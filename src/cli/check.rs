@@ -22,7 +22,7 @@ use super::input::Program;
 use super::progress::Watcher;
 use super::report::Printed;
 use super::requirements::{Asked, Bound};
-use super::{Failure, Outcome, forms, input, project, show, watch};
+use super::{Failure, Outcome, forms, guard, input, project, show, watch};
 
 /// A program that was checked.
 pub struct Done {
@@ -50,7 +50,6 @@ pub fn run(arguments: &Check, given: &[OsString], console: &Console) -> Outcome 
 
 /// Checks one program.
 fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
-    forms::refuse_twice(&arguments.forms)?;
     let watcher = Watcher::new(&arguments.limits)?;
     let cache = if arguments.no_cache { None } else { Cache::open(None) };
     let printed = (!arguments.json).then(|| Printed::new(arguments, console, &watcher));
@@ -99,6 +98,7 @@ pub fn checked(
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     show::refuse_unknown(&program, &arguments.show)?;
     let domains = asked.domains(&program, &plant);
+    guard::phase("composing the net");
     let mut system = System::with_domains(program, plant, domains);
     let Bound { requirements, assumptions, assertions, fairness_texts, mut fairness } =
         asked.bind(&system, view, console)?;
@@ -110,6 +110,7 @@ pub fn checked(
     if arguments.fair {
         fairness.push(always_scanning(&system));
     }
+    forms::refuse(&arguments.forms)?;
     let options = Options {
         view,
         fairness,
@@ -118,6 +119,7 @@ pub fn checked(
         assumptions,
         assertions,
     };
+    guard::phase("exploring");
     let started = Instant::now();
     let mut watch = |progress: &Progress| watcher.watch(progress);
     let tell = |news: News<'_>| {

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::args::When;
 use super::seen::Seen;
-use super::{Failure, Outcome, SUCCESS, reason};
+use super::{Failure, Outcome, SUCCESS, guard, output, reason};
 
 /// How many diagnostics of one file are printed. The first ones are the ones to mend.
 pub const MAX_DIAGNOSTICS: usize = 100;
@@ -94,6 +94,7 @@ impl Console {
 
     /// A file was read, or could not be.
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
+        output::has_read(path);
         lock(&self.seen).file(path, bytes);
     }
 
@@ -129,7 +130,7 @@ impl Console {
     pub fn message(&self, text: &str) {
         match &self.held {
             Some(held) => lock(held).push_str(text),
-            None => drop(io::stderr().write_all(text.as_bytes())),
+            None => drop(guard::pause(|| io::stderr().write_all(text.as_bytes()))),
         }
     }
 
@@ -137,7 +138,7 @@ impl Console {
     pub fn print(&self, text: &str) -> Outcome {
         // What is behind the last line end waits in a buffer, and would be lost without a word.
         let mut out = io::stdout().lock();
-        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        match guard::pause(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
             Ok(()) => Ok(SUCCESS),
             // The reader has seen enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),

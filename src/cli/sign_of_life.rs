@@ -1,9 +1,11 @@
 //! Signs of life where nobody sees figures: a line on standard error now and then, so that a log shows that work goes on.
 
 use std::io::{self, IsTerminal, Write};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
+use std::sync::{Mutex, Once, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
+
+use super::guard;
 
 /// The environment variable that says how many seconds pass between two lines; 0 for none.
 const VARIABLE: &str = "PETRIL_PROGRESS";
@@ -11,81 +13,58 @@ const VARIABLE: &str = "PETRIL_PROGRESS";
 /// Time between two lines.
 const PAUSE: Duration = Duration::from_secs(10);
 
-/// Lines on standard error until this is dropped.
-pub struct SignOfLife {
-    shared: Arc<Shared>,
-    thread: Option<JoinHandle<()>>,
+/// Work that goes on.
+struct Work {
+    started: Instant,
+    /// What is known of it beside its phase.
+    figures: String,
 }
 
-#[derive(Default)]
-struct Shared {
-    state: Mutex<State>,
-    is_over: Condvar,
+static WORK: Mutex<Option<Work>> = Mutex::new(None);
+
+/// Work begins. From now on there are lines, unless standard error is a terminal, which has its own figures.
+pub fn begin() {
+    static THREAD: Once = Once::new();
+    set(Some(Work { started: Instant::now(), figures: String::new() }));
+    THREAD.call_once(|| {
+        if let Some(pause) = pause().filter(|_| !io::stderr().is_terminal()) {
+            // Without a thread there are no lines; the work goes on.
+            drop(thread::Builder::new().name("sign of life".to_owned()).spawn(move || print(pause)));
+        }
+    });
 }
 
-#[derive(Default)]
-struct State {
-    is_over: bool,
-    /// What is going on, if more than the time is known.
-    text: String,
-}
-
-impl SignOfLife {
-    /// Lines from now on, unless standard error is a terminal, which has its own figures.
-    pub fn start() -> Self {
-        let shared = Arc::new(Shared::default());
-        let own = Arc::clone(&shared);
-        let pause = pause().filter(|_| !io::stderr().is_terminal());
-        // Without a thread there are no lines; the work goes on.
-        let spawn = |pause| thread::Builder::new().name("sign of life".to_owned()).spawn(move || own.print(pause)).ok();
-        Self { thread: pause.and_then(spawn), shared }
-    }
-
-    /// No lines.
-    pub fn none() -> Self {
-        Self { shared: Arc::default(), thread: None }
-    }
-
-    /// Whether somebody reads what is going on.
-    pub fn is_read(&self) -> bool {
-        self.thread.is_some()
-    }
-
-    /// Something goes on.
-    pub fn say(&self, text: String) {
-        self.shared.state.lock().unwrap_or_else(PoisonError::into_inner).text = text;
-    }
-
-    /// No more lines.
-    pub fn end(&self) {
-        self.shared.state.lock().unwrap_or_else(PoisonError::into_inner).is_over = true;
-        self.shared.is_over.notify_all();
+/// Work is at this point.
+pub fn say(figures: String) {
+    if let Some(work) = WORK.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        work.figures = figures;
     }
 }
 
-impl Drop for SignOfLife {
-    fn drop(&mut self) {
-        self.end();
-        self.thread.take().into_iter().for_each(|thread| drop(thread.join()));
-    }
+/// Work has come to its end.
+pub fn end() {
+    set(None);
 }
 
-impl Shared {
-    fn print(&self, pause: Duration) {
-        let started = Instant::now();
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        while !state.is_over {
-            let waited = self.is_over.wait_timeout_while(state, pause, |state| !state.is_over);
-            let (now, timeout) = waited.unwrap_or_else(PoisonError::into_inner);
-            state = now;
-            if timeout.timed_out() && !state.is_over {
-                let comma = if state.text.is_empty() { "" } else { ", " };
-                let line = format!("petril: {} s{comma}{}\n", started.elapsed().as_secs(), state.text);
-                // If nobody listens, so be it.
-                drop(io::stderr().write_all(line.as_bytes()));
-            }
+fn set(work: Option<Work>) {
+    *WORK.lock().unwrap_or_else(PoisonError::into_inner) = work;
+}
+
+fn print(pause: Duration) {
+    loop {
+        thread::sleep(pause);
+        let line = WORK.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(line);
+        if let Some((_, line)) = line.filter(|(elapsed, _)| *elapsed >= pause) {
+            // If nobody listens, so be it.
+            drop(guard::pause(|| io::stderr().write_all(line.as_bytes())));
         }
     }
+}
+
+fn line(work: &Work) -> (Duration, String) {
+    let elapsed = work.started.elapsed();
+    let what = if work.figures.is_empty() { guard::doing() } else { &work.figures };
+    (elapsed, format!("petril: {} s, {what}\n", elapsed.as_secs()))
 }
 
 /// The time between two lines that is asked for.
