@@ -12,6 +12,7 @@ mod explain;
 mod flat;
 mod format;
 mod forms;
+mod guard;
 mod init;
 mod input;
 mod input_table;

@@ -9,6 +9,7 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
+use super::guard::Guard;
 use super::memory;
 
 /// Watches a search.
@@ -16,6 +17,7 @@ pub struct Watcher {
     bar: ProgressBar,
     started: Instant,
     timeout: Option<Duration>,
+    guard: Option<Guard>,
     /// Bytes that may be in use.
     memory: u64,
     /// When memory was last measured, in time since the start.
@@ -46,6 +48,11 @@ pub fn listen() {
     });
 }
 
+/// How long whoever started the program has wanted it to end.
+pub fn interrupted_for() -> Option<Duration> {
+    INTERRUPTED.get().map(Instant::elapsed)
+}
+
 /// Whether whoever started the program wants it to end.
 pub fn is_interrupted() -> bool {
     INTERRUPTED.get().is_some()
@@ -71,6 +78,13 @@ impl Watcher {
         Self::drawing(limits, ProgressDrawTarget::stderr())
     }
 
+    /// As [`Self::new`], with a [`Guard`] that ends the program where work does not ask in time.
+    pub fn guarded(limits: &Limits) -> Result<Self, Failure> {
+        let mut watcher = Self::new(limits)?;
+        watcher.guard = Some(Guard::new(watcher.timeout, watcher.memory));
+        Ok(watcher)
+    }
+
     /// Watches one search among several, and shows nothing.
     pub fn unseen(limits: &Limits) -> Result<Self, Failure> {
         Self::drawing(limits, ProgressDrawTarget::hidden())
@@ -85,7 +99,8 @@ impl Watcher {
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
         let memory = limits.budget().bytes;
-        Ok(Self { bar, started: Instant::now(), timeout, memory, measured: Cell::default(), shown: Cell::default() })
+        let (started, measured, shown) = (Instant::now(), Cell::default(), Cell::default());
+        Ok(Self { bar, started, timeout, guard: None, memory, measured, shown })
     }
 
     /// Shows the figures; gives a reason to stop if time is up, or memory.
