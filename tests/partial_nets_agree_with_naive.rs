@@ -178,11 +178,14 @@ fn compare(model: &Model, questions: &[(Question, Bound)], limit: Limit, threads
     let deeper = Partial::of(model, usize::MAX, MOST / 3);
     for (((question, formula), reply), means) in questions.iter().zip(&report.replies).zip(&report.means) {
         let Some(found) = answer(&net, reply) else {
-            prop_assert!(report.stop != Stop::Complete, "no answer to {formula:?} from all states");
+            // The graph of all states may need more memory, or time, than there is.
+            let must = report.stop == Stop::Complete && matches!(limit, Limit::States(_));
+            prop_assert!(!must, "no answer to {formula:?} from all states");
             continue;
         };
         let by_exploration = means.iter().all(|means| *means == Means::Exploration);
-        let structural = matches!(question, Question::Examination(Examination::StableMarking)) && has_constant_place(model);
+        let structural =
+            matches!(question, Question::Examination(Examination::StableMarking)) && has_constant_place(model);
         for expected in [naive.answer(formula), deeper.answer(formula)].into_iter().flatten() {
             prop_assert_eq!(found, expected, "{:?} under {:?} on {} threads by {:?}", formula, limit, threads, means);
         }
@@ -200,7 +203,8 @@ fn questions(formulas: Vec<Bound>) -> Vec<(Question, Bound)> {
 
 /// A net with formulas about it.
 fn with_formulas() -> impl Strategy<Value = (Model, Vec<Bound>)> {
-    growing_model().prop_flat_map(|model| (formulas(&model), Just(model)).prop_map(|(formulas, model)| (model, formulas)))
+    growing_model()
+        .prop_flat_map(|model| (formulas(&model), Just(model)).prop_map(|(formulas, model)| (model, formulas)))
 }
 
 /// The states kept are markings that can be reached, expanded ones first, in the order of their distances; the rows are those of
@@ -269,10 +273,8 @@ fn counted(place: usize, comparison: Comparison, n: i128) -> Bound {
 #[test]
 fn a_counter_does_not_fall_back_at_the_limit() {
     // Three tokens fit into the digit of `p`; the fourth would be carried away.
-    let model = Model {
-        initial: vec![1, 0],
-        transitions: vec![Arcs { pre: vec![(0, 1)], post: vec![(0, 1), (1, 1)] }],
-    };
+    let model =
+        Model { initial: vec![1, 0], transitions: vec![Arcs { pre: vec![(0, 1)], post: vec![(0, 1), (1, 1)] }] };
     let few = always(possibly(counted(1, Comparison::AtMost, 3)));
     for threads in 1..=4 {
         for states in [1, 2, 3, 4, 5, 7, 8, 15, 16, 100] {
@@ -334,13 +336,32 @@ fn counting_in_many_modes_never_begins_again() {
 fn rows_of_wide_levels_are_those_of_the_states_expanded() {
     // Levels of more than 4096 states, which all threads expand together, ended at any moment.
     let source = |place| Arcs { pre: vec![], post: vec![(place, 1)] };
-    let sources = Model { initial: vec![0; 5], transitions: (0..5).map(source).collect() };
-    for (model, most, modes) in [(sources, 22_000, 0), (in_modes(4500), 10_000, 4500)] {
-        for threads in 1..=4 {
-            let options = Limit::States(most + 700 * threads as u64).options(threads);
-            let exploration = explore(&model, &options, &mut |_| None, None);
-            let (kept, expanded) = (exploration.kept(), exploration.expanded());
-            assert!(kept > 5000 + modes && expanded < kept, "{expanded} of {kept}");
+    let model = Model { initial: vec![0; 5], transitions: (0..5).map(source).collect() };
+    for threads in 1..=4 {
+        let options = Limit::States(21_000 + 300 * threads as u64).options(threads);
+        let exploration = explore(&model, &options, &mut |_| None, None);
+        let (kept, expanded) = (exploration.kept(), exploration.expanded());
+        assert!(kept > 21_000 && expanded < kept, "{expanded} of {kept}");
+        check_rows(&model, &exploration).unwrap();
+    }
+}
+
+#[test]
+fn states_that_tables_have_no_room_for_are_left_out() {
+    // Markings of one word, and of several.
+    let source = |place| Arcs { pre: vec![], post: vec![(place, 1)] };
+    let mut model = Model { initial: vec![0; 4], transitions: (0..4).map(source).collect() };
+    for (wide, bytes) in [(false, 2_700_000), (true, 6_000_000)] {
+        if wide {
+            model.initial.extend([1 << 40, 1 << 40]);
+            model.transitions.push(Arcs { pre: vec![(4, 1)], post: vec![(5, 1)] });
+        }
+        for threads in [1, 2, 4] {
+            let budget = Budget { bytes, ..Budget::default() };
+            let exploration = explore(&model, &Options { budget, threads, keep: true }, &mut |_| None, None);
+            assert_eq!(exploration.stop, Stop::Bytes(bytes));
+            let figures = &exploration.figures;
+            assert!(figures.states > 30_000 && figures.bytes < bytes / 2 * 3, "{figures:?}");
             check_rows(&model, &exploration).unwrap();
         }
     }

@@ -57,7 +57,9 @@ fn overdue(elapsed: Duration, timeout: Option<Duration>, memory: u64) -> Option<
     if interrupted_for().is_some_and(|time| time > GRACE) {
         return Some((130, None));
     }
-    if let Some(timeout) = timeout.filter(|&timeout| elapsed > timeout.saturating_add(timeout / 2).saturating_add(GRACE)) {
+    if let Some(timeout) =
+        timeout.filter(|&timeout| elapsed > timeout.saturating_add(timeout / 2).saturating_add(GRACE))
+    {
         let limit = timeout.as_secs_f64();
         return Some((2, Some(format!("the time limit of {limit} s was reached, and work did not end"))));
     }

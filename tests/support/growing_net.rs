@@ -49,8 +49,12 @@ fn modes() -> impl Strategy<Value = Model> {
 /// The net with places `p0`, `p1`, … and transitions `t0`, `t1`, ….
 pub fn net_of(model: &Model) -> Net {
     let mut builder = Builder::new("growing");
-    let places: Vec<PlaceId> =
-        model.initial.iter().enumerate().map(|(number, &tokens)| builder.place_with(format!("p{number}"), tokens)).collect();
+    let places: Vec<PlaceId> = model
+        .initial
+        .iter()
+        .enumerate()
+        .map(|(number, &tokens)| builder.place_with(format!("p{number}"), tokens))
+        .collect();
     for (number, arcs) in model.transitions.iter().enumerate() {
         let side = |side: &[(u32, u64)]| side.iter().map(|&(place, n)| (places[place as usize], n)).collect::<Vec<_>>();
         builder.weighted(format!("t{number}"), &side(&arcs.pre), &side(&arcs.post), &[]);

@@ -54,7 +54,8 @@ impl Machine {
         let (mut change, mut changes) = (Vec::new(), Vec::new());
         if packing.words() > 1 {
             let fold = Fold::new(packing.words());
-            changes = rows.map(|words| Changes { above: fold.above(words.iter().map(|&(word, _)| word)), words }).collect();
+            changes =
+                rows.map(|words| Changes { above: fold.above(words.iter().map(|&(word, _)| word)), words }).collect();
         } else {
             change = rows.map(|words| words.first().map_or(0, |&(_, change)| change)).collect();
         }

@@ -300,7 +300,9 @@ type Watch<'a> = &'a mut (dyn FnMut(&Progress) -> Option<String> + 'a);
 
 impl<'a> Search<'a> {
     fn new(task: Task<'a>, budget: Budget) -> Self {
-        let shards: Vec<Shard> = (0..task.shards).map(|number| Shard::new(number, task.machine, budget.bytes / task.shards as u64)).collect();
+        let shards: Vec<Shard> = (0..task.shards)
+            .map(|number| Shard::new(number, task.machine, budget.bytes / task.shards as u64))
+            .collect();
         let common = Common {
             budget,
             states: AtomicU64::new(0),

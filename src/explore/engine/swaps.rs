@@ -78,7 +78,9 @@ impl Swaps {
     pub(super) fn bytes(&self) -> u64 {
         match self {
             Self::Rows(rows) => rows.capacity() as u64 * 8,
-            Self::Lists(lists) => lists.iter().map(|list| 16 + 16 * list.as_ref().map_or(0, |list| list.len() as u64)).sum(),
+            Self::Lists(lists) => {
+                lists.iter().map(|list| 16 + 16 * list.as_ref().map_or(0, |list| list.len() as u64)).sum()
+            }
         }
     }
 }

@@ -117,7 +117,9 @@ pub fn reduce_with<'n>(net: &'n Net, keep: &Keep, options: &Options) -> Reduced<
 /// Reduces a net within limits, and not further once `stopping` is set.
 #[must_use]
 pub fn reduce_until<'n>(net: &'n Net, keep: &Keep, options: &Options, stopping: &AtomicBool) -> Reduced<'n> {
-    let Some(mut draft) = Draft::of(net, keep, options, stopping) else { return Reduced::unchanged(net, keep.property) };
+    let Some(mut draft) = Draft::of(net, keep, options, stopping) else {
+        return Reduced::unchanged(net, keep.property);
+    };
     for _ in 0..options.rounds {
         let before = draft.applied;
         everywhere(&mut draft);

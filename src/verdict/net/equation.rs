@@ -13,13 +13,7 @@ const PROGRAMS: usize = 40;
 /// is not linear is left out, which only makes the goal easier to reach.
 ///
 /// Once `stopping` is set, nothing more is excluded.
-pub(super) fn is_impossible(
-    problem: &Problem<'_>,
-    net: &Net,
-    goal: &Goal,
-    steps: u64,
-    stopping: &AtomicBool,
-) -> bool {
+pub(super) fn is_impossible(problem: &Problem<'_>, net: &Net, goal: &Goal, steps: u64, stopping: &AtomicBool) -> bool {
     let mut work = Work { problem, net, programs: PROGRAMS, steps: steps / PROGRAMS as u64 * 4, stopping };
     work.excludes(vec![goal], Vec::new(), Vec::new())
 }
