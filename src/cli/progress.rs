@@ -9,7 +9,7 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
-use super::guard::Guard;
+use super::guard::{self, Reason};
 use super::memory;
 
 /// Watches a search.
@@ -17,46 +17,14 @@ pub struct Watcher {
     bar: ProgressBar,
     started: Instant,
     timeout: Option<Duration>,
-    guard: Option<Guard>,
-    /// Bytes that may be in use.
+    /// MiB that may be in use.
     memory: u64,
-    /// When memory was last measured, in time since the start.
-    measured: Cell<Duration>,
     /// When the figures were last shown, in time since the start.
     shown: Cell<Duration>,
 }
 
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
-
-/// Between two looks at the memory in use.
-const MEASURED: Duration = Duration::from_millis(10);
-
-/// When whoever started the program wanted it to end.
-static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
-
-/// A signal so soon after another is the same one, sent to the program and to its group.
-const TWICE: Duration = Duration::from_millis(500);
-
-/// From now on, Ctrl-C ends the search, and the second one the program.
-pub fn listen() {
-    // If nobody can be told, Ctrl-C ends the program as usual.
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
-            std::process::exit(130);
-        }
-    });
-}
-
-/// How long whoever started the program has wanted it to end.
-pub fn interrupted_for() -> Option<Duration> {
-    INTERRUPTED.get().map(Instant::elapsed)
-}
-
-/// Whether whoever started the program wants it to end.
-pub fn is_interrupted() -> bool {
-    INTERRUPTED.get().is_some()
-}
 
 /// Sets the number of threads, once.
 pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
@@ -70,19 +38,12 @@ pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
 }
 
 impl Watcher {
-    /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
+    /// Sets the number of threads, and begins to watch.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
-        listen();
+        guard::listen();
         // Drawn on standard error, and only if that is a terminal.
         Self::drawing(limits, ProgressDrawTarget::stderr())
-    }
-
-    /// As [`Self::new`], with a [`Guard`] that ends the program where work does not ask in time.
-    pub fn guarded(limits: &Limits) -> Result<Self, Failure> {
-        let mut watcher = Self::new(limits)?;
-        watcher.guard = Some(Guard::new(watcher.timeout, watcher.memory));
-        Ok(watcher)
     }
 
     /// Watches one search among several, and shows nothing.
@@ -98,9 +59,8 @@ impl Watcher {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
-        let memory = limits.budget().bytes;
-        let (started, measured, shown) = (Instant::now(), Cell::default(), Cell::default());
-        Ok(Self { bar, started, timeout, guard: None, memory, measured, shown })
+        let memory = limits.budget().bytes >> 20;
+        Ok(Self { bar, started: Instant::now(), timeout, memory, shown: Cell::default() })
     }
 
     /// Shows the figures; gives a reason to stop if time is up, or memory.
@@ -125,23 +85,9 @@ impl Watcher {
                 )
             });
         }
-        if is_interrupted() {
-            return Some("interrupted".to_owned());
-        }
-        if let Some(timeout) = self.timeout.filter(|&timeout| elapsed > timeout) {
-            return Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()));
-        }
-        let used = self.used(elapsed).filter(|&used| used > self.memory)?;
-        Some(format!("the limit of {} MiB was reached: {} MiB are in use", self.memory >> 20, used >> 20))
-    }
-
-    /// Bytes in use, if they are to be measured again.
-    fn used(&self, elapsed: Duration) -> Option<u64> {
-        if elapsed < self.measured.get() + MEASURED {
-            return None;
-        }
-        self.measured.set(elapsed);
-        memory::resident()
+        let time = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
+        let memory = (guard::used() > self.memory).then(|| Reason::memory(self.memory));
+        guard::asked().or(time).or(memory).map(|reason| reason.to_string())
     }
 
     /// Does something while the figures are off the terminal.
