@@ -140,15 +140,14 @@ fn texts(count: usize) -> impl Iterator<Item = String> {
     })
 }
 
-/// The random programs come to every construct of a list, and the list names all they come to.
+/// The random programs come to every construct of a list.
 #[test]
 fn random_programs_come_to_every_construct() {
     let mut found = BTreeSet::new();
     texts(1500).for_each(|text| of_program(&read(&text).0, &mut found));
-    let listed: BTreeSet<String> = include_str!("support/constructs.txt").lines().map(str::to_owned).collect();
-    let missing: Vec<&String> = listed.difference(&found).collect();
-    let not_listed: Vec<&String> = found.difference(&listed).collect();
-    assert!(missing.is_empty() && not_listed.is_empty(), "missing: {missing:#?}\nnot listed: {not_listed:#?}");
+    let listed = include_str!("support/constructs.txt").lines();
+    let missing: Vec<&str> = listed.filter(|&construct| !found.contains(construct)).collect();
+    assert!(missing.is_empty(), "{missing:#?}");
 }
 
 /// The random programs come to everything there is: otherwise their agreement says little.

@@ -5,6 +5,7 @@
 use petril::semantics::{Kind, Type};
 
 use super::random_flat::Choices;
+use super::random_wide_blocks::standard;
 use super::random_wide_body::body;
 
 /// The type of an elementary value.
@@ -16,7 +17,7 @@ pub enum Of {
 
 pub const BOOL: Of = Of::Plain(Type::BOOL);
 pub const COLOURS: [&str; 3] = ["Red", "Green", "Blue"];
-const PLAIN_INT: Of = Of::Plain(Type::new(Kind::Signed, 16));
+pub const PLAIN_INT: Of = Of::Plain(Type::new(Kind::Signed, 16));
 
 impl Of {
     pub fn name(self) -> String {
@@ -426,32 +427,4 @@ impl Scope {
 
 fn loops(scope: &Scope) -> String {
     (0..scope.loops).map(|i| format!("VAR turn{i} : USINT; END_VAR\n")).collect()
-}
-
-/// The standard function blocks, those without timers more often.
-fn standard() -> Vec<Unit> {
-    let unit = |name: &str, inputs: &[(&str, Of)], outputs: &[(&str, Of)]| {
-        let list = |list: &[(&str, Of)]| list.iter().map(|&(name, of)| (name.to_owned(), of)).collect();
-        Unit { name: name.to_owned(), result: None, inputs: list(inputs), outputs: list(outputs), in_out: None }
-    };
-    let (time, int) = (Of::Plain(Type::TIME), PLAIN_INT);
-    let timer = |name| unit(name, &[("IN", BOOL), ("PT", time)], &[("Q", BOOL), ("ET", time)]);
-    let edge = |name| unit(name, &[("CLK", BOOL)], &[("Q", BOOL)]);
-    let counter = |name, inputs: &[(&str, Of)]| unit(name, inputs, &[("Q", BOOL), ("CV", int)]);
-    vec![
-        unit("SR", &[("S1", BOOL), ("R", BOOL)], &[("Q1", BOOL)]),
-        unit("RS", &[("S", BOOL), ("R1", BOOL)], &[("Q1", BOOL)]),
-        edge("R_TRIG"),
-        edge("F_TRIG"),
-        counter("CTU", &[("CU", BOOL), ("R", BOOL), ("PV", int)]),
-        counter("CTD", &[("CD", BOOL), ("LD", BOOL), ("PV", int)]),
-        unit(
-            "CTUD",
-            &[("CU", BOOL), ("CD", BOOL), ("R", BOOL), ("LD", BOOL), ("PV", int)],
-            &[("QU", BOOL), ("QD", BOOL), ("CV", int)],
-        ),
-        timer("TON"),
-        timer("TOF"),
-        timer("TP"),
-    ]
 }
