@@ -150,7 +150,7 @@ const PROGRAM: &str = "\
 PROGRAM long
 VAR_INPUT start : BOOL; END_VAR
 VAR_OUTPUT q : BOOL; END_VAR
-VAR t : TON; n : INT; END_VAR
+VAR t : TON; n : SINT; END_VAR
     LD  start
     JMPC on
     LD  0
@@ -226,7 +226,7 @@ fn columns_are_chosen() {
 #[test]
 fn what_a_requirement_speaks_of_comes_first() {
     let folder = tempfile::tempdir().unwrap();
-    let program = PROGRAM.replace("n : INT;", "n, m, k : INT; a, b : BOOL;");
+    let program = PROGRAM.replace("n : SINT;", "n, m, k : SINT; a, b : BOOL;");
     fs::write(folder.path().join("wide.il"), program).unwrap();
     let run = petril(folder.path(), &["check", "wide.il", "--overflow", "wrap", "-r", "AG !(t.RUNNING & n = 20)"]);
     assert_eq!(run.code, 1, "{}", run.stderr);
