@@ -62,6 +62,14 @@ fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
     Ok(code(done.report.verdict()))
 }
 
+/// Adds the warnings about the inputs to a report, and what is assumed because of them.
+pub fn add_warnings(report: &mut Report, console: &Console) {
+    let warnings = console.warnings();
+    report.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
+    report.warnings =
+        warnings.into_iter().map(|(code, place, message)| format!("{place}: {code}: {message}")).collect();
+}
+
 /// The exit code of a verdict.
 pub fn code(verdict: Verdict) -> ExitCode {
     match verdict {
@@ -128,7 +136,7 @@ pub fn checked(
         }
     };
     let tell: Option<Tell<'_>> = printed.is_some().then_some(&tell);
-    let report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
+    let mut report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
         Some((cache, fingerprint)) => {
             let known = cache.recall(&fingerprint);
             let (report, now) = check_knowing_aloud(&system, &requirements, &options, known.as_ref(), &mut watch, tell);
@@ -138,6 +146,7 @@ pub fn checked(
         None => check_aloud(&system, &requirements, &options, &mut watch, tell),
     };
     watcher.finish();
+    add_warnings(&mut report, console);
     Ok(Done { system, source, report, started })
 }
 

@@ -28,6 +28,8 @@ pub struct Answer {
     pub outcome: Outcome,
     /// If it holds whatever the program does.
     pub independent: Option<Independence>,
+    /// What is doubtful about the requirement itself, whatever the outcome is.
+    pub remark: Option<String>,
     /// Whether this was found by an earlier check.
     pub recalled: bool,
 }
@@ -46,6 +48,7 @@ impl Answer {
             variables: Vec::new(),
             outcome,
             independent: None,
+            remark: None,
             recalled: false,
         }
     }
@@ -63,6 +66,7 @@ impl Answer {
             variables: Vec::new(),
             outcome,
             independent: None,
+            remark: None,
             recalled: false,
         }
     }

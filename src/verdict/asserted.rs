@@ -53,6 +53,7 @@ pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
         variables: assertion.formula.mentions().variables.into_iter().collect(),
         outcome,
         independent: None,
+        remark: None,
         recalled: false,
     }
 }

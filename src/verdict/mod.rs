@@ -16,6 +16,7 @@ mod known;
 mod net;
 mod news;
 mod on_paths;
+mod possible;
 mod premises;
 mod remarks;
 mod remembering;
@@ -210,6 +211,8 @@ pub struct Report {
     pub exploration: Exploration,
     /// Under which assumptions the verdicts are proofs.
     pub assumptions: Vec<String>,
+    /// What was said of the program, its plants and its requirements before the check, and is no error: code, place and message.
+    pub warnings: Vec<String>,
     /// The requirements in the order they were given.
     pub answers: Vec<Answer>,
     /// What is checked without asking.

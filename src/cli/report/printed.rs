@@ -10,7 +10,7 @@ use petril::verdict::{News, Report};
 use super::Text;
 use crate::cli::Failure;
 use crate::cli::args::Check;
-use crate::cli::check::Done;
+use crate::cli::check::{self, Done};
 use crate::cli::console::Console;
 use crate::cli::progress::Watcher;
 
@@ -45,8 +45,10 @@ impl<'a> Printed<'a> {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let out = match news {
             News::Explored(report) => {
-                let out = text.opening(report);
-                state.opened = Some(report.clone());
+                let mut report = report.clone();
+                check::add_warnings(&mut report, self.console);
+                let out = text.opening(&report);
+                state.opened = Some(report);
                 out
             }
             News::Answered(position, answer) => {
