@@ -37,6 +37,16 @@ pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
     error.as_ref().map_or(Ok(()), |error| Err(Failure::Message(format!("cannot use {threads} threads: {error}"))))
 }
 
+/// A bar on standard error, if that is a terminal, for this many steps of work.
+pub fn steps(count: usize, of: &'static str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} {msg}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.set_message(of);
+    bar
+}
+
 impl Watcher {
     /// Sets the number of threads, and begins to watch.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {

@@ -17,7 +17,7 @@ use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Failure, Outcome, SUCCESS, forms, guard, output};
+use crate::cli::{Failure, Outcome, SUCCESS, forms, guard, output, progress};
 
 /// So many tests or faults are told one by one.
 const MAX_TOLD: usize = 40;
@@ -46,8 +46,17 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         let tolerated = arguments.meaning.tolerated();
         let tested: Vec<usize> = plans.iter().map(|plan| plan.function).collect();
         let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
-        hunt(&runner, &plans, mutants(&flat, &source), &decide)
+        let mutants = mutants(&flat, &source);
+        let bar = progress::steps(mutants.len(), "faults");
+        let found = hunt(&runner, &plans, mutants, &decide, &|| {
+            bar.inc(1);
+            guard::is_asked()
+        });
+        bar.finish_and_clear();
+        found
     });
+    // Faults were left out, whose number the report has.
+    let is_stopped = guard::is_asked();
     let is_told = arguments.json || arguments.html.is_some();
     let excluded = if is_told { planned::left_out(&specification, &plans, &limits) } else { Vec::new() };
     let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
@@ -74,7 +83,11 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     } else {
         console.print(&text(&sheets, &ran, console))?;
     }
-    Ok(if is_passed { SUCCESS } else { ExitCode::from(1) })
+    Ok(match is_passed {
+        true if is_stopped => ExitCode::from(3),
+        true => SUCCESS,
+        false => ExitCode::from(1),
+    })
 }
 
 /// What a program with a fault is that passes all tests: a proof says whether it computes what is specified.

@@ -18,6 +18,7 @@ mod replay;
 mod split;
 mod target;
 mod think;
+#[path = "../../explore/watched.rs"]
 mod watched;
 
 pub use self::examination::Examination;
