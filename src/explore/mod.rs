@@ -26,6 +26,7 @@ mod store;
 mod table;
 mod tarjan;
 mod walk;
+mod watched;
 
 pub use asserted::{Seen, first_at_lines};
 pub use budget::{Budget, Progress, Stop};
@@ -43,3 +44,4 @@ pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
 pub use space::{Admission, Failure, StateSpace, Step, Successors};
 pub use walk::{Walk, without_loops};
+pub use watched::watched;

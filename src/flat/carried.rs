@@ -40,8 +40,12 @@ impl FlatProgram {
                 written.insert(variable.0);
             }
             let [next, other] = successors(line, code.instruction);
-            other.into_iter().for_each(|other| meet(&mut waiting, other, written.clone()));
-            next.into_iter().for_each(|next| meet(&mut waiting, next, written));
+            if let Some(other) = other {
+                meet(&mut waiting, other, written.clone());
+            }
+            if let Some(next) = next {
+                meet(&mut waiting, next, written);
+            }
         }
         // Inputs are copied before the first line; a buffer is read only right after it was written.
         self.with_role(Role::Input).chain(self.with_role(Role::Buffer)).for_each(|id| carried.set(id.0, false));
@@ -60,7 +64,7 @@ impl FlatProgram {
         for (line, target) in jumps {
             lines.insert(target);
             if target <= line {
-                again.insert_range(target..=line);
+                again.insert_range(target..line + 1);
             }
         }
         lines.intersect_with(&again);

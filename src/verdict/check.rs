@@ -1,5 +1,7 @@
 //! A system and requirements to a report: one exploration, then every requirement on its graph.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
@@ -13,11 +15,11 @@ use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::why::{Broken, why};
 use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, asserted, every_line, hazards, scan_ends};
-use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
+use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed, watched};
 use crate::flat::Tolerated;
 use crate::logic::{
     Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Node, NodeId,
-    Quantifier, Requirement, View, evidence, label,
+    Quantifier, Requirement, View, evidence, label, label_until,
 };
 use crate::translate::System;
 
@@ -148,6 +150,7 @@ fn outcomes(
     }
     let mut outcomes = vec![Outcome::holds(); requirements.len()];
     let mut left_out = None;
+    let progress = done(&view.graph);
     for (history, members) in groups {
         let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
         let budget = Budget { bytes, ..options.budget };
@@ -160,15 +163,32 @@ fn outcomes(
         };
         let fair = Fair::on(view_of, &options.fairness);
         left_out = left_out.or_else(|| fair.as_ref().and_then(Fair::left_out));
-        let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget };
-        let judged = members.par_iter().map(|&position| match &requirements[position].1 {
-            Demand::Formula(formula) => judge.outcome(formula),
-            Demand::EveryLine => every_line::outcome(view),
+        let (judged, reason) = watched(watch, &progress, |stopping| {
+            let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget, stopping };
+            let judged = members.par_iter().map(|&position| match &requirements[position].1 {
+                Demand::Formula(formula) => judge.outcome(formula),
+                Demand::EveryLine => every_line::outcome(view),
+            });
+            judged.collect()
         });
-        let judged: Vec<Outcome> = judged.collect();
+        let judged = explained(judged, reason, members.len());
         members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
     }
     (outcomes, left_out)
+}
+
+/// An outcome that nobody waits for any more. Its reason is added where it is known.
+const STOPPED: Outcome = Outcome::Unknown(String::new());
+
+/// Outcomes with the reason why those were stopped that have none.
+fn explained(judged: Option<Vec<Outcome>>, reason: Option<String>, count: usize) -> Vec<Outcome> {
+    let judged = judged.unwrap_or_else(|| vec![STOPPED; count]);
+    let reason = format!("{} while requirements were checked", reason.unwrap_or_else(|| "it was stopped".to_owned()));
+    let explain = |outcome| match outcome {
+        Outcome::Unknown(none) if none.is_empty() => Outcome::Unknown(reason.clone()),
+        outcome => outcome,
+    };
+    judged.into_iter().map(explain).collect()
 }
 
 fn check_markings(
@@ -182,22 +202,32 @@ fn check_markings(
     let graph = view.graph();
     let fair = Fair::on(&view, &options.fairness);
     let left_out = fair.as_ref().and_then(Fair::left_out);
-    let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget };
-    let outcomes = requirements.par_iter().map(|(_, demand)| match demand {
-        Demand::Formula(formula) => judge.outcome(formula),
-        Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
-    });
+    let demands: Vec<&Demand> = requirements.iter().map(|(_, demand)| demand).collect();
     // What must be so whenever control comes somewhere, and the checks, are about all runs.
-    let unfair = Judge { fair: None, ..judge };
-    let asserted = options.assertions.iter().map(|assertion| {
-        let outcome = unfair.outcome(&assertion.as_formula(system));
-        asserted::answer(assertion, outcome)
+    let hazards: Vec<_> = hazards::checked(&system.program, options.tolerated).collect();
+    let mut unfair: Vec<Bound> = options.assertions.iter().map(|assertion| assertion.as_formula(system)).collect();
+    unfair.push(scan_ends::formula(system));
+    unfair.extend(hazards.iter().map(|&hazard| hazards::formula(system, hazard)));
+    let count = demands.len() + unfair.len();
+    let (judged, reason) = watched(watch, &done(graph), |stopping| {
+        let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget, stopping };
+        let outcomes = demands.par_iter().map(|demand| match demand {
+            Demand::Formula(formula) => judge.outcome(formula),
+            Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
+        });
+        let mut outcomes: Vec<Outcome> = outcomes.collect();
+        let of_all_runs = Judge { fair: None, ..judge };
+        outcomes.par_extend(unfair.par_iter().map(|formula| of_all_runs.outcome(formula)));
+        outcomes
     });
-    let answers = answers(system, requirements, options, outcomes.collect()).into_iter().chain(asserted).collect();
-    let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
-    let hazards = hazards::checked(&system.program, options.tolerated)
-        .map(|hazard| hazards::answer(hazard, unfair.outcome(&hazards::formula(system, hazard))));
-    let checks = ends.chain(hazards).collect();
+    let mut outcomes = explained(judged, reason, count);
+    let mut unfair = outcomes.split_off(demands.len()).into_iter();
+    let asserted: Vec<Answer> =
+        options.assertions.iter().zip(&mut unfair).map(|(of, outcome)| asserted::answer(of, outcome)).collect();
+    let answers = answers(system, requirements, options, outcomes).into_iter().chain(asserted).collect();
+    let ends: Vec<Answer> = unfair.next().map(scan_ends::answer).into_iter().collect();
+    let hazards = hazards.into_iter().zip(unfair).map(|(hazard, outcome)| hazards::answer(hazard, outcome));
+    let checks = ends.into_iter().chain(hazards).collect();
     Report { answers, checks, ..report(system, requirements, options, graph, left_out) }
 }
 
@@ -241,19 +271,28 @@ pub(super) struct Judge<'a> {
     pub fair: Option<&'a Fair<'a>>,
     /// What following a formula along the paths may use.
     pub budget: Budget,
+    /// Whether nobody waits for outcomes any more.
+    pub stopping: &'a AtomicBool,
 }
 
 impl Judge<'_> {
+    fn is_stopped(&self) -> bool {
+        self.stopping.load(Ordering::Relaxed)
+    }
+
     fn outcome(&self, formula: &Bound) -> Outcome {
+        if self.is_stopped() {
+            return STOPPED;
+        }
         if let Bound::Ltl(path) = formula {
             return self.outcome_on_paths(path);
         }
-        let Self { view, graph, fair, .. } = *self;
+        let Self { view, graph, fair, stopping, .. } = *self;
         let paths = fair.map(|fair| &fair.paths);
         let (mut dag, assumed) = (Dag::default(), fair.map_or(&[][..], |fair| fair.assumptions));
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
         let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
-        let labels = label(graph, &dag, &holds, paths);
+        let Some(labels) = label_until(graph, &dag, &holds, paths, stopping) else { return STOPPED };
         let counts = |&state: &u32| paths.is_none_or(|paths| paths.surely().contains(state as usize));
         let beginnings: Vec<u32> = graph.initial().iter().copied().filter(counts).collect();
         let evidence = |node: NodeId| evidence(graph, &dag, &labels, paths, node, &beginnings);
@@ -282,6 +321,9 @@ impl Judge<'_> {
             Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
             None => None,
         };
+        if self.is_stopped() {
+            return STOPPED;
+        }
         let occurrence = whole(graph).map(|graph| occurrence(view, graph, paths, formula)).transpose();
         match occurrence {
             Ok(occurrence) => {

@@ -43,7 +43,7 @@ struct Compared {
     values: Vec<u64>,
     result: (Type, u64),
     /// The variables of whose bits a firing has moved a token since.
-    touched: Vec<bool>,
+    touched: Vec<VarId>,
     /// Whether one has moved a token of the current result.
     is_result_touched: bool,
 }
@@ -54,7 +54,7 @@ impl Compared {
         Self {
             values: vec![0; variables],
             result: (Type::BOOL, 0),
-            touched: vec![true; variables],
+            touched: (0..variables).map(VarId).collect(),
             is_result_touched: true,
         }
     }
@@ -150,7 +150,7 @@ impl<'s> Replay<'s> {
         let (places, arcs) = (&self.system.places, net.arcs(transition));
         for place in arcs.consume.iter().chain(arcs.produce) {
             match places[place.index()] {
-                PlaceRole::Bit { variable, .. } => self.compared.touched[variable.0] = true,
+                PlaceRole::Bit { variable, .. } => self.compared.touched.push(variable),
                 PlaceRole::Result { .. } => self.compared.is_result_touched = true,
                 _ => {}
             }
@@ -239,17 +239,19 @@ impl<'s> Replay<'s> {
     fn compare(&mut self) -> Result<(), String> {
         let (system, marking) = (self.system, &self.marking);
         let is_marked = |place| marking.is_marked(place);
-        for variable in (0..system.program.variables.len()).map(VarId) {
-            let value = self.machine.value(variable);
-            if !self.compared.touched[variable.0] && self.compared.values[variable.0] == value {
-                continue;
-            }
-            if system.value(variable, is_marked) != Some(value) {
+        let (now, Compared { values, touched, .. }) = (self.machine.memory(), &mut self.compared);
+        if values.as_slice() != now {
+            let pairs = (0..).map(VarId).zip(values.iter().zip(now));
+            touched.extend(pairs.filter(|(_, (before, now))| before != now).map(|(variable, _)| variable));
+        }
+        touched.sort_unstable();
+        for &variable in &*touched {
+            if system.value(variable, is_marked) != Some(now[variable.0]) {
                 return Err(format!("`{}`", system.program.variable(variable).name));
             }
-            self.compared.touched[variable.0] = false;
-            self.compared.values[variable.0] = value;
+            values[variable.0] = now[variable.0];
         }
+        touched.clear();
         let (given, result) = self.typed_result();
         if self.compared.is_result_touched || self.compared.result != (given, result) {
             if system.result(given.width, is_marked) != Some(result) {

@@ -30,6 +30,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     output::refuse([&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = planned::limits();
+    guard::phase("choosing tests");
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
         None => planned::made(&specification, &functions, arguments.criterion, &limits),
@@ -37,6 +38,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     let start = if arguments.continued { Start::Continued } else { Start::PowerOn };
     let runner = Runner::new(&specification, &flat, arguments.meaning.tolerated(), start, &plans);
     let runner = runner.map_err(|found| unbound(&found, &sources, console))?;
+    guard::phase("running tests");
     let results = runner.run(&plans);
     let is_passed = results.iter().flat_map(|run| &run.tests).all(|test| test.ending == Ending::Passed);
     if arguments.mutants && !is_passed {
@@ -46,6 +48,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         let tolerated = arguments.meaning.tolerated();
         let tested: Vec<usize> = plans.iter().map(|plan| plan.function).collect();
         let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
+        guard::phase("looking for faults");
         let mutants = mutants(&flat, &source);
         let bar = progress::steps(mutants.len(), "faults");
         let found = hunt(&runner, &plans, mutants, &decide, &|| {

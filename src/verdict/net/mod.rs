@@ -18,8 +18,6 @@ mod replay;
 mod split;
 mod target;
 mod think;
-#[path = "../../explore/watched.rs"]
-mod watched;
 
 pub use self::examination::Examination;
 use self::hunt::{Hunt, search};
@@ -28,9 +26,8 @@ pub use self::means::Means;
 use self::paths::Paths;
 use self::split::Split;
 use self::think::Thinker;
-use self::watched::watched;
 use crate::explore::engine::{Exploration, Figures, Model, Options};
-use crate::explore::{Budget, Progress, Stop};
+use crate::explore::{Budget, Progress, Stop, watched};
 use crate::logic::Bound;
 use crate::net::{Net, PlaceId, TransitionId};
 
