@@ -121,7 +121,7 @@ pub fn checked(
     guard::phase("exploring");
     let started = Instant::now();
     let mut watch = |progress: &Progress| watcher.watch(progress);
-    let report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
+    let mut report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
         Some((cache, fingerprint)) => {
             let known = cache.recall(&fingerprint);
             let (report, now) = check_knowing(&system, &requirements, &options, known.as_ref(), &mut watch);
@@ -131,6 +131,10 @@ pub fn checked(
         None => check(&system, &requirements, &options, &mut watch),
     };
     watcher.finish();
+    let warnings = console.warnings();
+    report.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
+    report.warnings =
+        warnings.into_iter().map(|(code, place, message)| format!("{place}: {code}: {message}")).collect();
     Ok(Done { system, source, report, started })
 }
 

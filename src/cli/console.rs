@@ -120,6 +120,15 @@ impl Console {
         }
     }
 
+    /// The warnings printed so far, each with its code, where it stands, and its message.
+    pub fn warnings(&self) -> Vec<(String, String, String)> {
+        let printed = self.printed.borrow();
+        let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let warnings = printed.iter().filter(|diagnostic| diagnostic["severity"] == "warning");
+        let place = |d: &Value| format!("{}:{}:{}", text(&d["file"]), d["line"], d["column"]);
+        warnings.map(|d| (text(&d["code"]), place(d), text(&d["message"]))).collect()
+    }
+
     /// Prints an error that has no place in a file.
     pub fn error(&self, message: &str) {
         let title = if self.errors_in_colour { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };

@@ -94,6 +94,11 @@ pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Resul
     Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
 }
 
+/// What is assumed because of a warning about a program, in words.
+pub fn assumed(code: &str, message: &str) -> Option<String> {
+    (code == Code::AddressesMayOverlap.id()).then(|| format!("every address is a place of its own, though {message}"))
+}
+
 /// Reads a text as a net.
 type NetReader = fn(&Source) -> Result<Located, Vec<Diagnostic>>;
 
@@ -168,10 +173,9 @@ pub fn parts_of<P: AsRef<Path>>(
     let mut failed = false;
     for net in nets {
         let (net, net_source) = net?;
-        if let Err(diagnostics) = plant.add(&net, &program.flat) {
-            console.diagnostics(&diagnostics, &net_source);
-            failed = true;
-        }
+        let (Ok(diagnostics) | Err(diagnostics)) = plant.add(&net, &program.flat);
+        console.diagnostics(&diagnostics, &net_source);
+        failed |= any_error(&diagnostics);
     }
     if failed { Err(Failure::Reported) } else { Ok((program, plant)) }
 }

@@ -31,7 +31,9 @@ pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     guard::listen();
     guard::phase("proving");
     let options = Options { scans: arguments.scans.into(), stop: Arc::new(guard::is_asked), ..Options::default() };
-    let proof = prove(&subject, &options);
+    let mut proof = prove(&subject, &options);
+    let warnings = console.warnings();
+    proof.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
     let told = Told { subject: &subject, source: &program.source, sources: &read.sources, proof: &proof, console };
     if arguments.json {
         console.print_json(exchanged::proof(&subject, &proof, &program.source))?;
