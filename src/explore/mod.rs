@@ -31,7 +31,7 @@ mod watched;
 pub use asserted::{Seen, first_at_lines};
 pub use budget::{Budget, Progress, Stop};
 pub use circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
-pub use components::{Components, components};
+pub use components::{Components, components, components_until};
 pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;
 pub use given::Position;

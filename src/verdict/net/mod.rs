@@ -180,12 +180,7 @@ fn answers(
         open.into_iter().for_each(|at| replies[at] = Some(Reply::Unknown(reason.clone())));
         return (replies, None);
     }
-    let progress = Progress {
-        states: exploration.figures.states,
-        expanded: exploration.figures.states,
-        depth: exploration.figures.depth,
-        bytes,
-    };
+    let progress = Progress { bytes, ..exploration.progress() };
     let (found, reason) = watched(watch, &progress, |stopping| {
         let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| hunts[at]).collect();
         Paths::of(net, exploration, stopping).map(|paths| paths.replies(&wanted, stopping))
