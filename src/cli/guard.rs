@@ -122,7 +122,7 @@ pub fn asked_to_finish() -> Option<Reason> {
 
 /// The time until which work that was asked to stop at another one may finish what it has begun.
 pub fn to_finish(asked: Duration) -> Duration {
-    asked.mul_f64(1.2) + Duration::from_millis(300)
+    asked.saturating_add(asked / 5).saturating_add(Duration::from_millis(300))
 }
 
 /// Whether the work is to stop.
@@ -155,7 +155,7 @@ pub fn pause<T>(work: impl FnOnce() -> T) -> T {
 
 /// The time at which work is ended that was asked to stop at another one: less than half as much again and a second.
 fn grace(asked: Duration) -> Duration {
-    asked.mul_f64(1.4) + Duration::from_millis(800)
+    asked.saturating_add(asked / 5 * 2).saturating_add(Duration::from_millis(800))
 }
 
 impl Guard {
