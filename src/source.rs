@@ -1,6 +1,7 @@
 //! A source text with its name, and byte spans into it.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// A piece of a source text: byte offsets, the end exclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,8 +64,13 @@ pub struct Source {
     name: String,
     text: String,
     line_starts: Vec<usize>,
+    /// The characters before each [`BLOCK`] of bytes, once they have been asked for.
+    characters: OnceLock<Vec<usize>>,
     is_utf8: bool,
 }
+
+/// Bytes at the end of which characters are counted once: a line may be as long as a file.
+const BLOCK: usize = 1024;
 
 /// The bytes are no text: a NUL byte stands at this offset.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,7 +88,7 @@ impl Source {
         let text = text.into();
         let after_newline = text.bytes().enumerate().filter(|&(_, b)| b == b'\n').map(|(i, _)| i + 1);
         let line_starts = std::iter::once(0).chain(after_newline).collect();
-        Self { name: name.into(), text, line_starts, is_utf8: true }
+        Self { name: name.into(), text, line_starts, characters: OnceLock::new(), is_utf8: true }
     }
 
     /// A source from the bytes of a file: UTF-8 with or without a byte order mark, else ISO 8859-1, which is what the
@@ -135,8 +141,25 @@ impl Source {
     #[must_use]
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
         let line = self.line_of(offset);
-        let column = self.text[self.line_starts[line - 1]..offset].chars().count() + 1;
+        let column = self.characters_before(offset) - self.characters_before(self.line_starts[line - 1]) + 1;
         (line, column)
+    }
+
+    /// The number of characters that begin before a byte offset.
+    fn characters_before(&self, offset: usize) -> usize {
+        // Only the first byte of a character is not of the form 10xxxxxx.
+        let count = |bytes: &[u8]| bytes.iter().filter(|&&byte| byte >> 6 != 0b10).count();
+        let blocks = self.characters.get_or_init(|| {
+            let counts = self.text.as_bytes().chunks(BLOCK).map(count);
+            let sums = counts.scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count)));
+            sums.collect()
+        });
+        let block = offset / BLOCK;
+        match blocks.get(block) {
+            Some(before) => before + count(&self.text.as_bytes()[block * BLOCK..offset]),
+            // The end of a text whose last block is full, or which is empty.
+            None => blocks.last().map_or(0, |before| before + count(&self.text.as_bytes()[(block - 1) * BLOCK..])),
+        }
     }
 
     /// Line of a byte offset, counted from 1.
@@ -181,6 +204,20 @@ mod tests {
         assert_eq!(source.line_column(5), (2, 2), "ä is one column, two bytes");
         assert_eq!(source.line_column(11), (4, 2), "the end of the text");
         assert_eq!(source.line_text(2), "ä=1");
+    }
+
+    #[test]
+    fn columns_of_long_lines_are_counted_as_those_of_short_ones() {
+        for text in
+            ["ä".repeat(2 * BLOCK), "a".repeat(2 * BLOCK), format!("{}\n{}", "aö€".repeat(BLOCK), "€x".repeat(BLOCK))]
+        {
+            let source = Source::new("x", text.as_str());
+            for (offset, _) in text.char_indices().chain([(text.len(), ' ')]) {
+                let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
+                assert_eq!(source.line_column(offset).1, text[start..offset].chars().count() + 1);
+            }
+        }
+        assert_eq!(Source::new("x", "").line_column(0), (1, 1));
     }
 
     #[test]

@@ -90,6 +90,11 @@ fn what_is_no_list_is_refused() {
 fn workbook(path: &Path, rows: &[&[&str]]) {
     let cell = |text: &&str| format!("<c t=\"inlineStr\"><is><t>{text}</t></is></c>");
     let row = |cells: &&[&str]| format!("<row>{}</row>", cells.iter().map(cell).collect::<String>());
+    workbook_of(path, &rows.iter().map(row).collect::<String>(), None);
+}
+
+/// The same from its rows in XML; the directory may say that the sheet has another size.
+fn workbook_of(path: &Path, rows: &str, said: Option<u32>) {
     let main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
     let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
     let package = "http://schemas.openxmlformats.org/package/2006";
@@ -119,13 +124,7 @@ fn workbook(path: &Path, rows: &[&[&str]]) {
                 "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{office}/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>"
             ),
         ),
-        (
-            "xl/worksheets/sheet1.xml",
-            format!(
-                "<worksheet xmlns=\"{main}\"><sheetData>{}</sheetData></worksheet>",
-                rows.iter().map(row).collect::<String>()
-            ),
-        ),
+        ("xl/worksheets/sheet1.xml", format!("<worksheet xmlns=\"{main}\"><sheetData>{rows}</sheetData></worksheet>")),
     ];
     let crc = |bytes: &[u8]| {
         !bytes.iter().fold(u32::MAX, |crc, byte| {
@@ -139,6 +138,9 @@ fn workbook(path: &Path, rows: &[&[&str]]) {
         common.extend([crc(text.as_bytes()), size, size].map(u32::to_le_bytes).concat());
         common.extend([name.len() as u16, 0].map(u16::to_le_bytes).concat());
         file.extend([b"PK\x03\x04", &common[..], name.as_bytes(), text.as_bytes()].concat());
+        if let Some(said) = said.filter(|_| name.ends_with("sheet1.xml")) {
+            common[18..22].copy_from_slice(&said.to_le_bytes());
+        }
         directory.extend(
             [b"PK\x01\x02\x14\x00", &common[..], &[0; 6][..], &[0; 4], &at.to_le_bytes(), name.as_bytes()].concat(),
         );
@@ -168,6 +170,35 @@ fn workbooks_are_read_and_files_written() {
     let run = petril(folder.path(), &["sif", "import", "no.xlsx"]);
     assert_eq!((run.code, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("no.xlsx"), "{}", run.stderr);
+}
+
+#[test]
+fn workbooks_of_any_size_are_refused_or_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("far.xlsx");
+    let cell = |place: &str, text: &str| format!("<c r=\"{place}\" t=\"inlineStr\"><is><t>{text}</t></is></c>");
+    let head = format!("<row r=\"3\">{}{}</row>", cell("B3", "name"), cell("C3", "direction"));
+    let line = format!("<row r=\"5\">{}{}</row>", cell("B5", "a"), cell("C5", "in"));
+    let import = || petril(folder.path(), &["sif", "import", "far.xlsx"]);
+    workbook_of(&path, &format!("{head}{line}"), None);
+    assert!(import().stdout.contains("input a;"));
+    // A cell that is only formatted is nothing.
+    workbook_of(&path, &format!("{head}{line}<row r=\"1048576\"><c r=\"XFD1048576\" s=\"1\"/></row>"), None);
+    assert!(import().stdout.contains("input a;"));
+    for (place, row, column) in [("XFD1048576", 1_048_576, 16384), ("A100001", 100_001, 1), ("ALM4", 4, 1001)] {
+        workbook_of(&path, &format!("{head}<row r=\"{row}\">{}</row>", cell(place, "x")), None);
+        let run = import();
+        let message = format!("far.xlsx: the cell in row {row}, column {column} is too far out");
+        assert!(run.code == 2 && run.stderr.contains(&message), "{}", run.stderr);
+    }
+    let wide = |row: usize| format!("<row r=\"{row}\">{}</row>", cell(&format!("ALL{row}"), "x"));
+    workbook_of(&path, &(1..=4001).map(wide).collect::<String>(), None);
+    let run = import();
+    assert!(run.code == 2 && run.stderr.contains("the cell in row 4001, column 1000 is too far out"), "{}", run.stderr);
+    // A workbook that unpacks to more than a list can have.
+    workbook_of(&path, &format!("{head}{line}"), Some(300 << 20));
+    let run = import();
+    assert!(run.code == 2 && run.stderr.contains("unpacked, the workbook has more than 256 MiB"), "{}", run.stderr);
 }
 
 proptest! {

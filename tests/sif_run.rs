@@ -361,7 +361,7 @@ proptest! {
         let all = mutants(&flat, &source);
         prop_assert!(!all.is_empty());
         let value = |number: u32| wanted.holds(|signal| number >> signal.0 & 1 == 1);
-        for (mutant, fate) in hunt(&runner, &plans, all, &|_| Fate::Missed).mutants {
+        for (mutant, fate) in hunt(&runner, &plans, all, &|_| Fate::Missed, &|| false).mutants {
             let other = mutant.of(&flat);
             let changed = (0..flat.code.len()).filter(|&line| other.code[line].instruction != flat.code[line].instruction);
             prop_assert_eq!(changed.collect::<Vec<_>>(), [mutant.line]);

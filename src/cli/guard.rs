@@ -107,6 +107,24 @@ pub fn asked() -> Option<Reason> {
     (used() > guard.memory).then(|| Reason::memory(guard.memory))
 }
 
+/// Why work is to stop that makes the best of what was done within the limits: these, and a little more.
+pub fn asked_to_finish() -> Option<Reason> {
+    let reason = asked()?;
+    let guard = GUARD.get()?;
+    let is_over = |asked: Duration| guard.started.elapsed() > to_finish(asked);
+    let is_due = match reason {
+        Reason::Interrupted => INTERRUPTED.get().is_some_and(|at| is_over(at.saturating_duration_since(guard.started))),
+        Reason::Time(limit) => is_over(limit),
+        Reason::Memory { limit, used } => used > limit.saturating_mul(12) / 10 + BASE / 2,
+    };
+    is_due.then_some(reason)
+}
+
+/// The time until which work that was asked to stop at another one may finish what it has begun.
+pub fn to_finish(asked: Duration) -> Duration {
+    asked.saturating_add(asked / 5).saturating_add(Duration::from_millis(300))
+}
+
 /// Whether the work is to stop.
 pub fn is_asked() -> bool {
     asked().is_some()
@@ -142,17 +160,24 @@ pub fn pause<T>(work: impl FnOnce() -> T) -> T {
 
 /// The time at which work is ended that was asked to stop at another one: less than half as much again and a second.
 fn grace(asked: Duration) -> Duration {
-    asked.mul_f64(1.4) + Duration::from_millis(800)
+    asked.saturating_add(asked / 5 * 2).saturating_add(Duration::from_millis(800))
 }
 
 impl Guard {
     fn keep(&self, ending: Ending) {
         let mut since = None;
+        let is_limited = memory::address_space().is_some();
         loop {
             thread::sleep(TICK);
             // A system that does not tell leaves memory to the limits that the work keeps itself.
             let used = memory::resident().unwrap_or_default() >> 20;
             USED.store(used, Ordering::Relaxed);
+            if let Some((taken, space)) = memory::address_space().filter(|_| is_limited)
+                && taken > space - space / 8
+            {
+                // Where none is left, the next allocation would abort the process.
+                self.end(Reason::Memory { limit: space >> 20, used: taken >> 20 }, ending, false);
+            }
             let Some(reason) = asked() else {
                 since = None;
                 continue;

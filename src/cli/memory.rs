@@ -19,6 +19,13 @@ pub fn resident() -> Option<u64> {
     number_after(Path::new("/proc/self/status"), "VmRSS:").and_then(|kib| kib.checked_mul(1 << 10))
 }
 
+/// Bytes of this process in its address space, and of the address space, if that has a limit.
+pub fn address_space() -> Option<(u64, u64)> {
+    let space = number_after(Path::new("/proc/self/limits"), "Max address space")?;
+    let taken = number_after(Path::new("/proc/self/status"), "VmSize:").and_then(|kib| kib.checked_mul(1 << 10))?;
+    Some((taken, space))
+}
+
 /// Bytes this process may use, read below the root of the file system.
 fn usable(root: &Path) -> Option<u64> {
     let machine = number_after(&root.join("proc/meminfo"), "MemTotal:").and_then(|kib| kib.checked_mul(1 << 10));

@@ -27,9 +27,9 @@ const NODES: usize = 20_000;
 
 pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let on = &arguments.on;
+    let watcher = Watcher::new(&on.limits)?;
     let (located, _) = input::net(&on.model, console)?;
     let net = located.net;
-    let watcher = Watcher::new(&on.limits)?;
     guard::phase("looking at the structure of the net");
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };

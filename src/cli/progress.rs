@@ -29,15 +29,31 @@ pub struct Watcher {
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
 
+/// More processors no machine has that is of use here; threads are started before anything else.
+const MAX_THREADS: usize = 1024;
+
 /// Sets the number of threads, once.
 pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
     static THREADS: OnceLock<Option<String>> = OnceLock::new();
     let Some(threads) = limits.threads else { return Ok(()) };
+    if threads > MAX_THREADS {
+        return Err(Failure::Message(format!("--threads: at most {MAX_THREADS}, not {threads}")));
+    }
     let error = THREADS.get_or_init(|| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
         pool.err().map(|error| error.to_string())
     });
     error.as_ref().map_or(Ok(()), |error| Err(Failure::Message(format!("cannot use {threads} threads: {error}"))))
+}
+
+/// A bar on standard error, if that is a terminal, for this many steps of work.
+pub fn steps(count: usize, of: &'static str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} {msg}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.set_message(of);
+    bar
 }
 
 impl Watcher {
@@ -96,6 +112,11 @@ impl Watcher {
                     HumanBytes(progress.bytes),
                 )
             });
+        }
+        if done {
+            // What was explored within the limits is still judged.
+            let time = self.timeout.filter(|&timeout| elapsed > guard::to_finish(timeout)).map(Reason::Time);
+            return guard::asked_to_finish().or(time).map(|reason| reason.to_string());
         }
         let time = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
         let memory = (guard::used() > self.memory).then(|| Reason::memory(self.memory));

@@ -11,10 +11,14 @@ pub struct Stamp {
     pub took: f64,
 }
 
+/// The last second of the year 9999, the last that ISO 8601 writes in four digits.
+const LATEST: u64 = 253_402_300_799;
+
 impl fmt::Display for Stamp {
     /// As in ISO 8601, in UTC, without a zone: `2026-03-01T09:30:00`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (mut days, time) = (self.seconds / 86_400, self.seconds % 86_400);
+        let seconds = self.seconds.min(LATEST);
+        let (mut days, time) = (seconds / 86_400, seconds % 86_400);
         let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
         let mut year = 1970;
         while days >= 365 + u64::from(leap(year)) {
@@ -50,5 +54,8 @@ mod tests {
         assert_eq!(text(1_772_357_400), "2026-03-01T09:30:00");
         assert_eq!(text(4_107_542_399), "2100-02-28T23:59:59");
         assert_eq!(text(4_107_542_400), "2100-03-01T00:00:00");
+        assert_eq!(text(253_402_300_799), "9999-12-31T23:59:59");
+        assert_eq!(text(253_402_300_800), "9999-12-31T23:59:59");
+        assert_eq!(text(u64::MAX), "9999-12-31T23:59:59");
     }
 }

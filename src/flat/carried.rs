@@ -1,5 +1,7 @@
 //! Which variables carry something from one scan to the next.
 
+use std::collections::BTreeMap;
+
 use fixedbitset::FixedBitSet;
 
 use super::{Condition, FlatProgram, Instruction, Target};
@@ -14,14 +16,35 @@ impl FlatProgram {
     pub fn carried(&self) -> FixedBitSet {
         let variables = self.variables.len();
         let mut carried = FixedBitSet::with_capacity(variables);
-        for (line, written) in self.written_before().iter().enumerate() {
-            // A line that control never comes to makes no difference.
-            let Some(written) = written else { continue };
-            match self.code.get(line) {
-                Some(code) => {
-                    carried.extend(reads(code.instruction).map(|id| id.0).filter(|&id| !written.contains(id)));
+        let meetings = self.meetings();
+        // Of lines that control has yet to come to, in their order: the variables written on every way to them that is known. The
+        // set goes from line to line, and is copied only where control goes two ways.
+        let mut waiting = BTreeMap::from([(0, FixedBitSet::with_capacity(variables))]);
+        let mut known: BTreeMap<usize, FixedBitSet> = BTreeMap::new();
+        // A line that control never comes to makes no difference.
+        while let Some((line, mut written)) = waiting.pop_first() {
+            if meetings.contains(line) {
+                let before = known.get(&line);
+                before.iter().for_each(|before| written.intersect_with(before));
+                if before == Some(&written) {
+                    continue;
                 }
-                None => carried.extend((0..variables).filter(|&id| !written.contains(id))),
+                known.insert(line, written.clone());
+            }
+            let Some(code) = self.code.get(line) else {
+                carried.extend((0..variables).filter(|&id| !written.contains(id)));
+                continue;
+            };
+            carried.extend(reads(code.instruction).map(|id| id.0).filter(|&id| !written.contains(id)));
+            if let Instruction::Store { target: Target::Variable(variable), .. } = code.instruction {
+                written.insert(variable.0);
+            }
+            let [next, other] = successors(line, code.instruction);
+            if let Some(other) = other {
+                meet(&mut waiting, other, written.clone());
+            }
+            if let Some(next) = next {
+                meet(&mut waiting, next, written);
             }
         }
         // Inputs are copied before the first line; a buffer is read only right after it was written.
@@ -29,29 +52,31 @@ impl FlatProgram {
         carried
     }
 
-    /// For each line and the end, the variables that are written on every way to it; `None` if there is no way.
-    fn written_before(&self) -> Vec<Option<FixedBitSet>> {
-        let mut before: Vec<Option<FixedBitSet>> = vec![None; self.end() + 1];
-        before[0] = Some(FixedBitSet::with_capacity(self.variables.len()));
-        let mut work = vec![0];
-        while let Some(line) = work.pop() {
-            let (Some(code), Some(written)) = (self.code.get(line), &before[line]) else { continue };
-            let mut after = written.clone();
-            if let Instruction::Store { target: Target::Variable(variable), .. } = code.instruction {
-                after.insert(variable.0);
-            }
-            for next in successors(line, code.instruction).into_iter().flatten() {
-                let joined = match &before[next] {
-                    None => after.clone(),
-                    Some(known) => known & &after,
-                };
-                if before[next].as_ref() != Some(&joined) {
-                    before[next] = Some(joined);
-                    work.push(next);
-                }
+    /// Lines that a jump leads to and that may be come to again, because a jump back leads over them: what is known of them has to
+    /// be kept. All other lines are come to once if lines are taken in their order.
+    fn meetings(&self) -> FixedBitSet {
+        let jumps = self.code.iter().enumerate().filter_map(|(line, code)| match code.instruction {
+            Instruction::Jump { target, .. } => Some((line, target)),
+            _ => None,
+        });
+        let mut lines = FixedBitSet::with_capacity(self.end() + 1);
+        let mut again = FixedBitSet::with_capacity(self.end() + 1);
+        for (line, target) in jumps {
+            lines.insert(target);
+            if target <= line {
+                again.insert_range(target..line + 1);
             }
         }
-        before
+        lines.intersect_with(&again);
+        lines
+    }
+}
+
+/// Control may come to a line with these variables written, too.
+fn meet(waiting: &mut BTreeMap<usize, FixedBitSet>, line: usize, written: FixedBitSet) {
+    match waiting.get_mut(&line) {
+        Some(known) => known.intersect_with(&written),
+        None => drop(waiting.insert(line, written)),
     }
 }
 
@@ -121,6 +146,11 @@ mod tests {
         assert_eq!(carried(&format!("{start}JMPC on\nST m\nJMP off\non: STN m\noff: LD m\nST p")), [""; 0]);
         assert_eq!(carried(&format!("{start}JMPC on\nST m\nRET\non: LD j\nST m\nRET\nLD m\nST p")), [""; 0]);
         assert_eq!(carried(&format!("back: {start}ST m\nJMPC back\nLD m\nST q")), [""; 0], "a loop");
+        let twice = "JMPC off\nST m\noff: LD j\nJMPC in\nLD m\nST p\nin: STN n\nLD j\nJMPC off\n";
+        assert_eq!(carried(&format!("{start}{twice}")), ["m"], "in a loop, two ways meet");
+        assert_eq!(carried(&format!("{start}ST m\n{twice}")), [""; 0], "in a loop, two ways meet");
+        let later = "JMPC in\nback: LD m\nST p\nin: LD i\nJMPC out\nLD j\nJMPC back\nout: LD i\nST m\n";
+        assert_eq!(carried(&format!("{start}{later}")), ["m"], "a loop is entered in its middle");
     }
 
     #[test]

@@ -59,6 +59,12 @@ impl<'p> Machine<'p> {
         self.memory[variable.0]
     }
 
+    /// The values of all variables.
+    #[must_use]
+    pub fn memory(&self) -> &[u64] {
+        &self.memory
+    }
+
     /// Gives a variable a value, as the copying of inputs does.
     pub fn set(&mut self, variable: VarId, value: u64) {
         self.memory[variable.0] = value;

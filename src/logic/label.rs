@@ -40,11 +40,22 @@ pub fn label(
     holds: &(dyn Fn(&Bound, u32) -> bool + Sync),
     fairness: Option<&Fairness>,
 ) -> Labels {
+    let never = AtomicBool::new(false);
+    label_until(graph, dag, holds, fairness, &never).unwrap_or(Labels { sets: Vec::new() })
+}
+
+/// As [`label`]. Nothing if `stopping` is set meanwhile.
+pub fn label_until(
+    graph: &Graph,
+    dag: &Dag,
+    holds: &(dyn Fn(&Bound, u32) -> bool + Sync),
+    fairness: Option<&Fairness>,
+    stopping: &AtomicBool,
+) -> Option<Labels> {
     let holding = |formula: &Bound, negated| set_where(graph.len(), |state| holds(formula, state) != negated);
     let mut sets = Vec::with_capacity(dag.nodes().len());
-    Labeller { graph, open: &graph.open(), fairness, stopping: &AtomicBool::new(false) }
-        .label(dag, &holding, &mut sets);
-    Labels { sets }
+    Labeller { graph, open: &graph.open(), fairness, stopping }.label(dag, &holding, &mut sets);
+    (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
 }
 
 /// As [`label`] on all paths, where `holding` gives the states in which a formula about one state holds, or its negation if the
@@ -79,6 +90,9 @@ struct Labeller<'a> {
 impl Labeller<'_> {
     fn label(&self, dag: &Dag, holding: &dyn Fn(&Bound, bool) -> FixedBitSet, sets: &mut Vec<FixedBitSet>) {
         for node in dag.nodes() {
+            if self.stopping.load(Ordering::Relaxed) {
+                return;
+            }
             let set = |id: &NodeId| &sets[id.index()];
             let labelled = match node {
                 Node::State { formula, negated } => holding(formula, *negated),

@@ -44,7 +44,7 @@ pub use domain::{DomainText, bind_domain};
 pub use evidence::{Claim, Evidence, evidence};
 pub use fairness::{Constraint, Constraints, Fairness, FairnessAssumption, FairnessText, Recurrence};
 pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
-pub use label::{Labels, label, label_from, leading_to};
+pub use label::{Labels, label, label_from, label_until, leading_to};
 pub use lasso::{Lasso, near_lasso, shortest};
 pub use literal::number;
 pub use ltl::{Counterexample, Path, Search, search};

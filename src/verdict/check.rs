@@ -1,5 +1,7 @@
 //! A system and requirements to a report: one exploration, then every requirement on its graph.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
@@ -16,11 +18,11 @@ use super::why::{Broken, why};
 use super::{
     Answer, Exploration, Outcome, Report, Verdict, Witness, admitted, asserted, every_line, hazards, scan_ends,
 };
-use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
+use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed, watched};
 use crate::flat::Tolerated;
 use crate::logic::{
     Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Labels, Node, NodeId,
-    Quantifier, Requirement, View, evidence, label,
+    Quantifier, Requirement, View, evidence, label, label_until,
 };
 use crate::translate::System;
 use crate::witness::Disagreement;
@@ -177,6 +179,7 @@ fn outcomes(
     }
     let mut outcomes = vec![Outcome::holds(); requirements.len()];
     let (mut left_out, mut rest) = (None, groups.len());
+    let progress = done(&view.graph);
     for (history, members) in groups {
         rest -= 1;
         let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
@@ -194,20 +197,46 @@ fn outcomes(
         if fair.is_none() || left_out.is_some() || rest == 0 {
             told.begin(|| report(view.system(), requirements, options, &view.graph, left_out.clone()));
         }
-        let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget };
-        let judged = members.par_iter().map(|&position| {
-            let outcome = match &requirements[position].1 {
-                Demand::Formula(formula) => judge.outcome(formula),
-                Demand::Possible(formula) => judge.outcome_of_possibility(formula),
-                Demand::EveryLine => every_line::outcome(view),
-            };
-            told.put(position, || answer(view.system(), &requirements[position], options, outcome.clone()));
-            outcome
+        let (judged, reason) = watched(watch, &progress, |stopping| {
+            let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget, stopping };
+            let judged = members.par_iter().map(|&position| {
+                let outcome = match &requirements[position].1 {
+                    Demand::Formula(formula) => judge.outcome(formula),
+                    Demand::Possible(formula) => judge.outcome_of_possibility(formula),
+                    Demand::EveryLine => every_line::outcome(view),
+                };
+                tell(told, position, &outcome, || {
+                    answer(view.system(), &requirements[position], options, outcome.clone())
+                });
+                outcome
+            });
+            judged.collect()
         });
-        let judged: Vec<Outcome> = judged.collect();
+        let judged = explained(judged, reason, members.len());
         members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
     }
     (outcomes, left_out)
+}
+
+/// An outcome that nobody waits for any more. Its reason is added where it is known.
+pub(super) const STOPPED: Outcome = Outcome::Unknown(String::new());
+
+/// Tells an answer that is final. One that was stopped gets its reason later.
+fn tell(told: &InOrder<'_>, position: usize, outcome: &Outcome, answer: impl FnOnce() -> Answer) {
+    if !matches!(outcome, Outcome::Unknown(reason) if reason.is_empty()) {
+        told.put(position, answer);
+    }
+}
+
+/// Outcomes with the reason why those were stopped that have none.
+fn explained(judged: Option<Vec<Outcome>>, reason: Option<String>, count: usize) -> Vec<Outcome> {
+    let judged = judged.unwrap_or_else(|| vec![STOPPED; count]);
+    let reason = format!("{} while requirements were checked", reason.unwrap_or_else(|| "it was stopped".to_owned()));
+    let explain = |outcome| match outcome {
+        Outcome::Unknown(none) if none.is_empty() => Outcome::Unknown(reason.clone()),
+        outcome => outcome,
+    };
+    judged.into_iter().map(explain).collect()
 }
 
 fn check_markings(
@@ -222,28 +251,37 @@ fn check_markings(
     let graph = view.graph();
     let fair = Fair::on(&view, &options.fairness);
     let left_out = fair.as_ref().and_then(Fair::left_out);
-    let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget };
     told.begin(|| report(system, requirements, options, graph, left_out.clone()));
-    let outcomes = requirements.par_iter().enumerate().map(|(position, asked)| {
-        let outcome = match &asked.1 {
-            Demand::Formula(formula) => judge.outcome(formula),
-            Demand::Possible(formula) => judge.outcome_of_possibility(formula),
-            Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
-        };
-        told.put(position, || answer(system, asked, options, outcome.clone()));
-        outcome
-    });
     // What must be so whenever control comes somewhere, and the checks, are about all runs.
-    let unfair = Judge { fair: None, ..judge };
-    let asserted = options.assertions.iter().map(|assertion| {
-        let outcome = unfair.outcome(&assertion.as_formula(system));
-        asserted::answer(assertion, outcome)
+    let hazards: Vec<_> = hazards::checked(&system.program, options.tolerated).collect();
+    let mut unfair: Vec<Bound> = options.assertions.iter().map(|assertion| assertion.as_formula(system)).collect();
+    unfair.push(scan_ends::formula(system));
+    unfair.extend(hazards.iter().map(|&hazard| hazards::formula(system, hazard)));
+    let count = requirements.len() + unfair.len();
+    let (judged, reason) = watched(watch, &done(graph), |stopping| {
+        let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget, stopping };
+        let outcomes = requirements.par_iter().enumerate().map(|(position, asked)| {
+            let outcome = match &asked.1 {
+                Demand::Formula(formula) => judge.outcome(formula),
+                Demand::Possible(formula) => judge.outcome_of_possibility(formula),
+                Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
+            };
+            tell(told, position, &outcome, || answer(system, asked, options, outcome.clone()));
+            outcome
+        });
+        let mut outcomes: Vec<Outcome> = outcomes.collect();
+        let of_all_runs = Judge { fair: None, ..judge };
+        outcomes.extend(unfair.iter().map(|formula| of_all_runs.outcome(formula)));
+        outcomes
     });
-    let answers = answers(system, requirements, options, outcomes.collect()).into_iter().chain(asserted).collect();
-    let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
-    let hazards = hazards::checked(&system.program, options.tolerated)
-        .map(|hazard| hazards::answer(hazard, unfair.outcome(&hazards::formula(system, hazard))));
-    let checks = ends.chain(hazards).collect();
+    let mut outcomes = explained(judged, reason, count);
+    let mut unfair = outcomes.split_off(requirements.len()).into_iter();
+    let asserted: Vec<Answer> =
+        options.assertions.iter().zip(&mut unfair).map(|(of, outcome)| asserted::answer(of, outcome)).collect();
+    let answers = answers(system, requirements, options, outcomes).into_iter().chain(asserted).collect();
+    let ends: Vec<Answer> = unfair.next().map(scan_ends::answer).into_iter().collect();
+    let hazards = hazards.into_iter().zip(unfair).map(|(hazard, outcome)| hazards::answer(hazard, outcome));
+    let checks = ends.into_iter().chain(hazards).collect();
     Report { answers, checks, ..report(system, requirements, options, graph, left_out) }
 }
 
@@ -288,15 +326,24 @@ pub(super) struct Judge<'a> {
     pub fair: Option<&'a Fair<'a>>,
     /// What following a formula along the paths may use.
     pub budget: Budget,
+    /// Whether nobody waits for outcomes any more.
+    pub stopping: &'a AtomicBool,
 }
 
 impl Judge<'_> {
+    fn is_stopped(&self) -> bool {
+        self.stopping.load(Ordering::Relaxed)
+    }
+
     fn outcome(&self, formula: &Bound) -> Outcome {
+        if self.is_stopped() {
+            return STOPPED;
+        }
         if let Bound::Ltl(path) = formula {
             return self.outcome_on_paths(path);
         }
         let Self { graph, .. } = *self;
-        let labelled = self.labelled(formula);
+        let Some(labelled) = self.labelled(formula) else { return STOPPED };
         match self.broken(&labelled) {
             Some(Outcome::Violated(witness, why)) => {
                 let why = why.map(|mut why| {
@@ -320,13 +367,13 @@ impl Judge<'_> {
         }
     }
 
-    /// The states that satisfy a formula, and its negation.
-    pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Labelled<'f> {
+    /// The states that satisfy a formula, and its negation; nothing if nobody waits for them.
+    pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Option<Labelled<'f>> {
         let mut dag = Dag::default();
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
         let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
-        let labels = label(self.graph, &dag, &holds, self.fair.map(|fair| &fair.paths));
-        Labelled { formula, dag, yes, no, labels }
+        let labels = label_until(self.graph, &dag, &holds, self.fair.map(|fair| &fair.paths), self.stopping)?;
+        Some(Labelled { formula, dag, yes, no, labels })
     }
 
     /// A run from an initial state in which a node holds, and a run that counts begins, if there is one.
@@ -358,6 +405,9 @@ impl Judge<'_> {
 
     /// That a formula holds, and whether its premises occur.
     pub(super) fn holds(&self, formula: &Bound, witness: Option<Witness>) -> Outcome {
+        if self.is_stopped() {
+            return STOPPED;
+        }
         let paths = self.fair.map(|fair| &fair.paths);
         let occurrence = whole(self.graph).map(|graph| occurrence(self.view, graph, paths, formula)).transpose();
         match occurrence {

@@ -1,6 +1,7 @@
 //! What the two views have in common for a check: states, what holds in them, and traces to them.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 use super::{Trace, Witness};
 use crate::explore::{Graph, Markings, ScanSpace};
@@ -160,7 +161,9 @@ pub fn witness(
     // Of each constraint, whether its premise and its goal were seen within the loop.
     let seen = RefCell::new(vec![(false, false); constraints.len()]);
     let trace = view.replayed(&states, evidence.loop_start, &|position, holds| {
-        for claim in evidence.claims.iter().filter(|claim| claim.position == position) {
+        // Claims are in the order of the path.
+        let from = evidence.claims.partition_point(|claim| claim.position < position);
+        for claim in evidence.claims[from..].iter().take_while(|claim| claim.position == position) {
             let Node::State { formula, negated } = dag.node(claim.node) else { continue };
             if holds(formula) != Some(!negated) {
                 let sentence = dag.sentence(claim.node, view.system());
@@ -186,12 +189,17 @@ pub fn witness(
 /// The claims of evidence as notes; a claim that is made of state after state becomes one note.
 fn notes(system: &System, dag: &Dag, evidence: &Evidence) -> Vec<Note> {
     let mut notes: Vec<Note> = Vec::new();
+    // Of each node its text, and of each text its latest note: claims are in the order of the path.
+    let (mut texts, mut latest) = (BTreeMap::new(), BTreeMap::new());
     for claim in evidence.claims.iter().filter(|claim| !dag.is_constant(claim.node, true)) {
-        let text = dag.sentence(claim.node, system);
-        let earlier = notes.iter_mut().find(|note| note.text == text && note.last + 1 >= claim.position);
-        match earlier {
+        let text: &String = texts.entry(claim.node).or_insert_with(|| dag.sentence(claim.node, system));
+        let earlier = latest.get(text).map(|&note: &usize| &mut notes[note]);
+        match earlier.filter(|note| note.last + 1 >= claim.position) {
             Some(note) => note.last = note.last.max(claim.position),
-            None => notes.push(Note { first: claim.position, last: claim.position, text }),
+            None => {
+                latest.insert(text.clone(), notes.len());
+                notes.push(Note { first: claim.position, last: claim.position, text: text.clone() });
+            }
         }
     }
     notes

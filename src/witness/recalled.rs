@@ -84,12 +84,14 @@ impl Valuation for At<'_> {
             }
             Past::Since(f, g) => {
                 let Some(now) = self.scan else { return 0 };
-                let begins = (0..=now).any(|then| at(then).holds(g) && (then + 1..=now).all(|scan| at(scan).holds(f)));
-                i128::from(begins)
+                // The last scan with g, or without f in the scan itself, decides.
+                let decisive = (0..=now).rev().find(|&then| at(then).holds(g) || !at(then).holds(f));
+                i128::from(decisive.is_some_and(|then| at(then).holds(g)))
             }
             Past::Run { of, most } => {
                 let Some(now) = self.scan else { return 0 };
-                let run = (0..=now).rev().take_while(|&scan| at(scan).holds(of)).count();
+                let most_scans = usize::try_from(*most).unwrap_or(usize::MAX);
+                let run = (0..=now).rev().take(most_scans).take_while(|&scan| at(scan).holds(of)).count();
                 (run as i128).min(i128::from(*most))
             }
         }

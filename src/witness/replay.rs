@@ -34,6 +34,30 @@ pub struct Replay<'s> {
     passed: Vec<Hazard>,
     /// The hazards met since the scan began, each with its line.
     hazards: Vec<(usize, Hazard)>,
+    compared: Compared,
+}
+
+/// Values of which net and interpreter were found to agree. What neither has changed since need not be looked at again.
+#[derive(Clone, Debug)]
+struct Compared {
+    values: Vec<u64>,
+    result: (Type, u64),
+    /// The variables of whose bits a firing has moved a token since.
+    touched: Vec<VarId>,
+    /// Whether one has moved a token of the current result.
+    is_result_touched: bool,
+}
+
+impl Compared {
+    /// Nothing was compared yet.
+    fn nothing(variables: usize) -> Self {
+        Self {
+            values: vec![0; variables],
+            result: (Type::BOOL, 0),
+            touched: (0..variables).map(VarId).collect(),
+            is_result_touched: true,
+        }
+    }
 }
 
 impl<'s> Replay<'s> {
@@ -48,6 +72,7 @@ impl<'s> Replay<'s> {
             given: Type::BOOL,
             passed: Vec::new(),
             hazards: Vec::new(),
+            compared: Compared::nothing(system.program.variables.len()),
         }
     }
 
@@ -110,21 +135,33 @@ impl<'s> Replay<'s> {
     /// The transition is not enabled, the net not safe, or net and interpreter differ afterwards.
     pub fn fire(&mut self, transition: TransitionId) -> Result<(), Disagreement> {
         let net = &self.system.net;
-        let name = net.transition(transition).name;
         if !net.is_enabled(&self.marking, transition) {
-            return Err(Disagreement(format!("`{name}` is not enabled")));
+            return Err(Disagreement(format!("`{}` is not enabled", net.transition(transition).name)));
         }
+        self.fire_enabled(transition)
+    }
+
+    fn fire_enabled(&mut self, transition: TransitionId) -> Result<(), Disagreement> {
+        let net = &self.system.net;
+        let name = || net.transition(transition).name;
         net.fire(&mut self.marking, transition).map_err(|crate::net::NotSafe(place)| {
-            Disagreement(format!("`{name}` marks `{}` twice", net.place(place).name))
+            Disagreement(format!("`{}` marks `{}` twice", name(), net.place(place).name))
         })?;
-        let places = &self.system.places;
-        let arrived = net.arcs(transition).produce.iter().find(|place| places[place.index()].is_control());
+        let (places, arcs) = (&self.system.places, net.arcs(transition));
+        for place in arcs.consume.iter().chain(arcs.produce) {
+            match places[place.index()] {
+                PlaceRole::Bit { variable, .. } => self.compared.touched.push(variable),
+                PlaceRole::Result { .. } => self.compared.is_result_touched = true,
+                _ => {}
+            }
+        }
+        let arrived = arcs.produce.iter().find(|place| places[place.index()].is_control());
         self.control = arrived.copied().unwrap_or(self.control);
         self.follow(transition)?;
         if self.is_within_line() {
             return Ok(());
         }
-        self.compare().map_err(|what| Disagreement(format!("after `{name}`, net and interpreter differ in {what}")))
+        self.compare().map_err(|what| Disagreement(format!("after `{}`, net and interpreter differ in {what}", name())))
     }
 
     /// Lets the interpreter do what a transition stands for that has been fired.
@@ -188,25 +225,40 @@ impl<'s> Replay<'s> {
         let system = self.system;
         let candidates = system.moves(self.control).iter().chain(system.plant_moves()).copied();
         let candidates = candidates.filter(|id| of(system.transitions[id.index()]));
-        let enabled: Vec<TransitionId> = candidates.filter(|&id| system.net.is_enabled(&self.marking, id)).collect();
-        let &[only] = enabled.as_slice() else {
-            return Err(Disagreement(format!("{} transitions are enabled where one should be", enabled.len())));
+        let mut enabled = candidates.filter(|&id| system.net.is_enabled(&self.marking, id));
+        let (first, others) = (enabled.next(), enabled.count());
+        let Some(only) = first.filter(|_| others == 0) else {
+            let enabled = others + usize::from(first.is_some());
+            return Err(Disagreement(format!("{enabled} transitions are enabled where one should be")));
         };
-        self.fire(only)?;
+        self.fire_enabled(only)?;
         Ok(only)
     }
 
-    fn compare(&self) -> Result<(), String> {
-        let is_marked = |place| self.marking.is_marked(place);
-        let program = &self.system.program;
-        for variable in (0..program.variables.len()).map(VarId) {
-            if self.system.value(variable, is_marked) != Some(self.machine.value(variable)) {
-                return Err(format!("`{}`", program.variable(variable).name));
-            }
+    /// Compares every bit of the variables and the current result that either side may have changed.
+    fn compare(&mut self) -> Result<(), String> {
+        let (system, marking) = (self.system, &self.marking);
+        let is_marked = |place| marking.is_marked(place);
+        let (now, Compared { values, touched, .. }) = (self.machine.memory(), &mut self.compared);
+        if values.as_slice() != now {
+            let pairs = (0..).map(VarId).zip(values.iter().zip(now));
+            touched.extend(pairs.filter(|(_, (before, now))| before != now).map(|(variable, _)| variable));
         }
+        touched.sort_unstable();
+        for &variable in &*touched {
+            if system.value(variable, is_marked) != Some(now[variable.0]) {
+                return Err(format!("`{}`", system.program.variable(variable).name));
+            }
+            values[variable.0] = now[variable.0];
+        }
+        touched.clear();
         let (given, result) = self.typed_result();
-        if self.system.result(given.width, is_marked) != Some(result) {
-            return Err("the current result".to_owned());
+        if self.compared.is_result_touched || self.compared.result != (given, result) {
+            if system.result(given.width, is_marked) != Some(result) {
+                return Err("the current result".to_owned());
+            }
+            self.compared.is_result_touched = false;
+            self.compared.result = (given, result);
         }
         // Before the program runs, control is in the system program.
         match self.system.places[self.control.index()] {

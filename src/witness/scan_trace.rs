@@ -8,7 +8,7 @@ use super::replay::{Disagreement, Replay};
 use crate::explore::{Failure, ScanRun, ScanSpace, ScanState};
 use crate::flat::Hazard;
 use crate::logic::Bound;
-use crate::net::TransitionId;
+use crate::net::{Marking, TransitionId};
 use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
 
@@ -209,8 +209,8 @@ pub fn play_scans(system: &System, trace: &ScanTrace, seen: Seen<'_>) -> Result<
             }
         }
         seen(Event::Begins, &replay)?;
-        let mut met = BTreeSet::new();
-        while !replay.is_at(end_place) && (replay.is_within_line() || met.insert(replay.marking().clone())) {
+        let mut met = Met::new(scan.end.is_some());
+        while !replay.is_at(end_place) && (replay.is_within_line() || met.is_new(replay.marking())) {
             if !replay.is_within_line() {
                 seen(Event::AtLine(position), &replay)?;
             }
@@ -241,6 +241,36 @@ pub fn play_scans(system: &System, trace: &ScanTrace, seen: Seen<'_>) -> Result<
             Err(Disagreement("the lasso does not close".to_owned()))
         }
         _ => Ok(()),
+    }
+}
+
+/// Markings of a scan, of which one that comes again shows that the scan never ends.
+enum Met {
+    /// All of them: the scan is told as far as the first that comes again.
+    All(BTreeSet<Marking>),
+    /// One of them, after a power of two lines a later one. Of a cycle that is met, one is kept sooner or later (R. P. Brent, An
+    /// improved Monte Carlo factorization algorithm, BIT 20, 1980).
+    One { kept: Option<Marking>, steps: u64 },
+}
+
+impl Met {
+    fn new(ends: bool) -> Self {
+        if ends { Self::One { kept: None, steps: 0 } } else { Self::All(BTreeSet::new()) }
+    }
+
+    fn is_new(&mut self, marking: &Marking) -> bool {
+        match self {
+            Self::All(met) => met.insert(marking.clone()),
+            Self::One { kept, steps } => {
+                let is_new = kept.as_ref() != Some(marking);
+                *steps += 1;
+                // The first is kept late: most scans are short.
+                if *steps >= 1024 && steps.is_power_of_two() {
+                    *kept = Some(marking.clone());
+                }
+                is_new
+            }
+        }
     }
 }
 

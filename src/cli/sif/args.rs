@@ -135,7 +135,7 @@ pub struct SifProve {
 /// the test touches are compared with what the specification says.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
-Exit codes: 0 all tests are passed, 1 some are not, 2 bad usage or input.
+Exit codes: 0 all tests are passed, 1 some are not, 2 bad usage or input, 3 a limit was reached before all faults were tried.
 
 Examples:
   petril sif run examples/beam-interlock.sif examples/beam-interlock.il

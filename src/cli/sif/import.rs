@@ -19,6 +19,7 @@ pub fn run(arguments: &SifImport, console: &Console) -> Outcome {
         if fs::metadata(path).map_err(cannot)?.len() > MAX_TEXT {
             return Err(Failure::Message(format!("`{name}` has more than {} MiB", MAX_TEXT >> 20)));
         }
+        output::has_read(path);
         list::rows_of_workbook(&fs::read(path).map_err(cannot)?)
     } else {
         list::rows_of_text(source(path, MAX_TEXT, console)?.text())

@@ -17,7 +17,7 @@ use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Failure, Outcome, SUCCESS, forms, guard, output};
+use crate::cli::{Failure, Outcome, SUCCESS, forms, guard, output, progress};
 
 /// So many tests or faults are told one by one.
 const MAX_TOLD: usize = 40;
@@ -30,6 +30,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     output::refuse([&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = planned::limits();
+    guard::phase("choosing tests");
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
         None => planned::made(&specification, &functions, arguments.criterion, &limits),
@@ -37,6 +38,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     let start = if arguments.continued { Start::Continued } else { Start::PowerOn };
     let runner = Runner::new(&specification, &flat, arguments.meaning.tolerated(), start, &plans);
     let runner = runner.map_err(|found| unbound(&found, &sources, console))?;
+    guard::phase("running tests");
     let results = runner.run(&plans);
     let is_passed = results.iter().flat_map(|run| &run.tests).all(|test| test.ending == Ending::Passed);
     if arguments.mutants && !is_passed {
@@ -46,8 +48,18 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         let tolerated = arguments.meaning.tolerated();
         let tested: Vec<usize> = plans.iter().map(|plan| plan.function).collect();
         let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
-        hunt(&runner, &plans, mutants(&flat, &source), &decide)
+        guard::phase("looking for faults");
+        let mutants = mutants(&flat, &source);
+        let bar = progress::steps(mutants.len(), "faults");
+        let found = hunt(&runner, &plans, mutants, &decide, &|| {
+            bar.inc(1);
+            guard::is_asked()
+        });
+        bar.finish_and_clear();
+        found
     });
+    // Faults were left out, whose number the report has.
+    let is_stopped = guard::is_asked();
     let is_told = arguments.json || arguments.html.is_some();
     let excluded = if is_told { planned::left_out(&specification, &plans, &limits) } else { Vec::new() };
     let origin = arguments.tests.as_ref().map(|path| path.display().to_string());
@@ -74,7 +86,11 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     } else {
         console.print(&text(&sheets, &ran, console))?;
     }
-    Ok(if is_passed { SUCCESS } else { ExitCode::from(1) })
+    Ok(match is_passed {
+        true if is_stopped => ExitCode::from(3),
+        true => SUCCESS,
+        false => ExitCode::from(1),
+    })
 }
 
 /// What a program with a fault is that passes all tests: a proof says whether it computes what is specified.

@@ -28,6 +28,7 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     if arguments.compare {
         return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
     }
+    guard::phase("choosing tests");
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
         None => planned::made(&specification, &functions, arguments.criterion, &limits),

@@ -18,7 +18,7 @@ use super::console::Console;
 use super::input::Program;
 use super::interactive::Screen;
 use super::report::counted;
-use super::{Failure, Outcome, SUCCESS, input, interactive, output};
+use super::{Failure, Outcome, SUCCESS, guard, input, interactive, output};
 use scans::{Run, scans};
 use steering::Steering;
 
@@ -49,6 +49,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     }
     let default = steering.len().unwrap_or(if until.is_some() { UNTIL_SCANS } else { DEFAULT_SCANS });
     let count = arguments.scans.unwrap_or(default);
+    guard::phase("simulating");
     let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
         .map_err(|problem| refused(arguments, &problem))?;
     if let Some(recorded) = steering.recorded() {

@@ -5,7 +5,7 @@
 
 use std::io::Cursor;
 
-use calamine::{Reader as _, Xlsx};
+use calamine::{Data, Reader as _, Xlsx};
 
 use super::plan_csv::separator;
 
@@ -35,14 +35,69 @@ pub fn rows_of_text(text: &str) -> Result<Vec<Vec<String>>, String> {
     rows.collect::<Result<_, csv::Error>>().map_err(|error| error.to_string())
 }
 
-/// The rows of the first sheet of a workbook (XLSX).
+/// Rows and columns of a list at most, and positions in its rows from the first column to the last one used.
+const MAX_ROWS: usize = 100_000;
+const MAX_COLUMNS: usize = 1000;
+const MAX_POSITIONS: usize = 4_000_000;
+
+/// Bytes of all parts of a workbook at most: it is packed, and a small one can unpack to any size.
+const MAX_UNPACKED: u64 = 256 << 20;
+
+/// The rows of the first sheet of a workbook (XLSX), which is read cell by cell.
 ///
 /// # Errors
-/// What is no workbook.
+/// What is no workbook, or has cells that are too far out, or is too large when unpacked.
 pub fn rows_of_workbook(bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
+    if unpacked(bytes).is_some_and(|size| size > MAX_UNPACKED) {
+        return Err(format!("unpacked, the workbook has more than {} MiB", MAX_UNPACKED >> 20));
+    }
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
-    let sheet = book.worksheet_range_at(0).ok_or("the workbook has no sheet")?.map_err(|error| error.to_string())?;
-    Ok(sheet.rows().map(|row| row.iter().map(|cell| cell.to_string().trim().to_owned()).collect()).collect())
+    let name = book.sheet_names().first().cloned().ok_or("the workbook has no sheet")?;
+    let mut cells = book.worksheet_cells_reader(&name).map_err(|error| error.to_string())?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut positions = 0;
+    while let Some(cell) = cells.next_cell().map_err(|error| error.to_string())? {
+        let (row, column) = (cell.get_position().0 as usize, cell.get_position().1 as usize);
+        let text = Data::from(cell.get_value().clone()).to_string().trim().to_owned();
+        if text.is_empty() {
+            continue;
+        }
+        let wider = (column + 1).saturating_sub(rows.get(row).map_or(0, Vec::len));
+        positions += wider;
+        if row >= MAX_ROWS || column >= MAX_COLUMNS || positions > MAX_POSITIONS {
+            return Err(format!(
+                "the cell in row {}, column {} is too far out: a list has at most {MAX_ROWS} rows and {MAX_COLUMNS} columns",
+                row + 1,
+                column + 1
+            ));
+        }
+        if rows.len() <= row {
+            rows.resize_with(row + 1, Vec::new);
+        }
+        if rows[row].len() <= column {
+            rows[row].resize_with(column + 1, String::new);
+        }
+        rows[row][column] = text;
+    }
+    Ok(rows)
+}
+
+/// The sizes that the directory of a ZIP archive gives its parts unpacked, together; `None` if it has no directory, which whoever
+/// reads it will say.
+fn unpacked(bytes: &[u8]) -> Option<u64> {
+    let number = |at: usize, length: usize| -> Option<u64> {
+        let digits = bytes.get(at..at.checked_add(length)?)?;
+        Some(digits.iter().rev().fold(0, |number, &digit| number << 8 | u64::from(digit)))
+    };
+    let end = bytes.windows(4).rposition(|word| word == b"PK\x05\x06")?;
+    let (count, mut at) = (number(end + 10, 2)?, usize::try_from(number(end + 16, 4)?).ok()?);
+    let mut sum = 0;
+    for _ in 0..count {
+        // A part of 4 GiB or more has this number here, and its size elsewhere.
+        sum += number(at + 24, 4)?;
+        at += 46 + (number(at + 28, 2)? + number(at + 30, 2)? + number(at + 32, 2)?) as usize;
+    }
+    Some(sum)
 }
 
 /// A line of the list.

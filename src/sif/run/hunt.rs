@@ -49,9 +49,16 @@ impl Hunt {
     }
 }
 
-/// Runs tests on programs with one fault each. What they do not find, `decide` looks at.
+/// Runs tests on programs with one fault each. What they do not find, `decide` looks at. `stop` is asked before each fault; what
+/// is left then is undecided.
 #[must_use]
-pub fn hunt(runner: &Runner<'_>, plans: &[Plan], mutants: Vec<Mutant>, decide: &Decide<'_>) -> Hunt {
+pub fn hunt(
+    runner: &Runner<'_>,
+    plans: &[Plan],
+    mutants: Vec<Mutant>,
+    decide: &Decide<'_>,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Hunt {
     // Most faults are found by the tests of the function whose output is written next.
     let written: Vec<Option<usize>> = plans.iter().map(|plan| written(runner, plan)).collect();
     let nearest = |line: usize| {
@@ -59,6 +66,9 @@ pub fn hunt(runner: &Runner<'_>, plans: &[Plan], mutants: Vec<Mutant>, decide: &
         behind.min_by_key(|&plan| written[plan]).unwrap_or(0)
     };
     let fates = mutants.into_par_iter().map(|mutant| {
+        if stop() {
+            return (mutant, Fate::Undecided("the work was stopped".to_owned()));
+        }
         let program = mutant.of(runner.program());
         let found = runner.with(&program).first_not_passed(plans, nearest(mutant.line));
         let fate = found.map_or_else(|| decide(&program), |(plan, test)| Fate::Found(plan, test));

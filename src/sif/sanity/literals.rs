@@ -32,6 +32,11 @@ pub fn never_decide(
         if removed.contains(&occurrence) || constant.contains(&occurrence.of) {
             continue;
         }
+        if model.is_stopped() {
+            let question = format!("each literal of `{}` decides", specification.name(occurrence.of));
+            findings.push(Finding::open(equation(specification, occurrence.of), question).of(function));
+            break;
+        }
         let changed = model.changed(Change::Occurrence(occurrence));
         let differs = differs(model, &changed, &roots);
         let place = equation(specification, occurrence.of);

@@ -26,6 +26,7 @@ pub struct Model<'s> {
     /// What was TRUE in the scan before, and what has been for long enough.
     memory: Vec<Option<(Literal, Literal)>>,
     left: Arc<AtomicU64>,
+    stop: Stop,
 }
 
 /// Literals for the signals of the specification; those outside of the cone mean nothing.
@@ -61,9 +62,9 @@ pub struct Occurrence {
 
 impl<'s> Model<'s> {
     /// The cone, its restrictions only as literals.
-    pub fn new(specification: &'s Specification, cone: Cone<'s>, stop: &Stop) -> Self {
+    pub fn new(specification: &'s Specification, cone: Cone<'s>, outside: &Stop) -> Self {
         let left = Arc::new(AtomicU64::new(DECISIONS));
-        let (budget, outer) = (Arc::clone(&left), Arc::clone(stop));
+        let (budget, outer) = (Arc::clone(&left), Arc::clone(outside));
         let take = |left: u64| left.checked_sub(1);
         let stop: Stop =
             Arc::new(move || budget.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_err() || outer());
@@ -80,7 +81,16 @@ impl<'s> Model<'s> {
             }
         }
         let values = Values { seen, formula: nothing.clone(), reset: nothing };
-        let mut model = Self { specification, cone, solver, values, restrictions: Vec::new(), memory, left };
+        let mut model = Self {
+            specification,
+            cone,
+            solver,
+            values,
+            restrictions: Vec::new(),
+            memory,
+            left,
+            stop: Arc::clone(outside),
+        };
         model.values = model.computed(None);
         let mut kept = model.cone.restrictions.iter().peekable();
         for (at, restriction) in specification.restrictions.iter().enumerate() {
@@ -91,6 +101,11 @@ impl<'s> Model<'s> {
             }
         }
         model
+    }
+
+    /// Whether whoever asks wants the work to end.
+    pub fn is_stopped(&self) -> bool {
+        (self.stop)()
     }
 
     /// The signals with something changed.

@@ -52,13 +52,12 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
     let mut candidates = Candidates { slots: Vec::new(), are_all: true };
     let free: Vec<VarId> = system.free_inputs().filter(|input| relevant.contains(input)).collect();
     let (beginning, numbers) = (space.beginning(), mentions.numbers);
+    let elsewhere: Vec<Vec<u64>> = free.iter().map(|&input| distinct(input, trace)).collect();
     for (scan, told) in trace.scans.iter().enumerate().rev() {
         let now = |input: VarId| told.inputs.iter().find(|(own, _)| *own == input).map_or(0, |&(_, value)| value);
         let change = |input: VarId, to: u64| Change { scan, input, from: now(input), to };
-        for &input in &free {
-            let earlier = trace.scans.iter().map(|scan| &scan.inputs);
-            let earlier = earlier.flatten().filter(|(own, _)| *own == input).map(|&(_, value)| value);
-            let (values, are_all) = values(space, input, now(input), &numbers, earlier);
+        for (&input, elsewhere) in free.iter().zip(&elsewhere) {
+            let (values, are_all) = values(space, input, now(input), &numbers, elsewhere);
             candidates.are_all &= are_all;
             let ty = system.program.variable(input).ty;
             let mut alternatives: Vec<Vec<Change>> = values.into_iter().map(|to| vec![change(input, to)]).collect();
@@ -106,6 +105,17 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
     candidates
 }
 
+/// The first values that an input has in a run, each once: as many as are tried.
+fn distinct(input: VarId, trace: &ScanTrace) -> Vec<u64> {
+    let mut values = Vec::new();
+    for &(_, value) in trace.scans.iter().flat_map(|scan| &scan.inputs).filter(|(own, _)| *own == input) {
+        if values.len() < ALL && !values.contains(&value) {
+            values.push(value);
+        }
+    }
+    values
+}
+
 /// How far apart the values of a change are. The nearest are tried first.
 fn apart(ty: Type, change: &Change) -> u128 {
     (ty.number(change.to) - ty.number(change.from)).unsigned_abs()
@@ -118,14 +128,14 @@ fn values(
     input: VarId,
     now: u64,
     numbers: &BTreeSet<i128>,
-    elsewhere: impl Iterator<Item = u64>,
+    elsewhere: &[u64],
 ) -> (Vec<u64>, bool) {
     let system = space.system();
     let (domain, ty) = (system.domain(input), system.program.variable(input).ty);
     if domain.size() <= ALL as u128 {
         return (domain.patterns().filter(|&value| value != now).collect(), true);
     }
-    let mut near: Vec<i128> = elsewhere.map(|value| ty.number(value)).collect();
+    let mut near: Vec<i128> = elsewhere.iter().map(|&value| ty.number(value)).collect();
     let ends = domain.ranges().iter().flat_map(|&(from, to)| [from, to]);
     near.extend(ends.take(4).chain([0, ty.number(now)]));
     near.extend(numbers);

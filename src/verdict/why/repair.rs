@@ -1,5 +1,7 @@
 //! Which inputs matter: other values of as few of them as can be with which the run, made again, breaks nothing.
 
+use std::cell::Cell;
+
 use super::Broken;
 use super::candidates::{Candidates, Slot, candidates};
 use super::rerun::{Again, Rerun};
@@ -32,6 +34,10 @@ enum Trial {
 /// The inputs that matter, or why none are told.
 pub fn repair(broken: &Broken<'_>, scans: &dyn ScanStates, trace: &ScanTrace) -> Result<Repair, String> {
     let again = || "the run cannot be made again with given inputs".to_owned();
+    let scan_length = scans.base().space.system().program.end() + 16;
+    if trace.scans.len().saturating_mul(scan_length) > WORK {
+        return Err("it is too long to be made again with other inputs".to_owned());
+    }
     let rerun = Rerun::new(scans, trace).ok_or_else(again)?;
     let universal = broken.dag.is_universal(broken.negation);
     if universal && !broken.graph.is_complete() {
@@ -40,7 +46,7 @@ pub fn repair(broken: &Broken<'_>, scans: &dyn ScanStates, trace: &ScanTrace) ->
     let itself = rerun.itself();
     let ends: Vec<Position> = itself.ends.iter().map(|end| end.position.clone()).collect();
     let space = &scans.base().space;
-    let search = Search { broken, scans, rerun, universal, scan_length: space.system().program.end() + 16 };
+    let search = Search { broken, scans, rerun, universal, scan_length, judged: Cell::default() };
     if !matches!(search.judged(itself), Trial::Breaks) {
         return Err("one run alone does not show that the requirement is broken".to_owned());
     }
@@ -69,11 +75,13 @@ struct Search<'a> {
     universal: bool,
     /// What a scan costs, in instructions.
     scan_length: usize,
+    /// Positions at which formulas were looked at. Each costs about an instruction.
+    judged: Cell<usize>,
 }
 
 impl Search<'_> {
     fn is_exhausted(&self, work: usize) -> bool {
-        self.rerun.computed() * self.scan_length > work
+        self.rerun.computed() * self.scan_length + self.judged.get() > work
     }
 
     /// Makes the run again.
@@ -92,6 +100,7 @@ impl Search<'_> {
             ids = numbers;
         }
         let run = (again.length(), again.loop_start);
+        self.judged.set(self.judged.get() + again.length() * dag.nodes().len());
         let everywhere = |node, at: usize| self.universal && labels.of(node).contains(ids[at] as usize);
         let truths = along(dag, run, &|formula, at| self.holds(formula, &again, at), &everywhere);
         if truths[self.broken.negation.index()][0] { Trial::Breaks } else { Trial::Repaired(again) }
@@ -177,6 +186,11 @@ impl Search<'_> {
     /// this scan only or from then on. What is not needed is left out.
     fn shrunk(&self, slots: &[Slot]) -> Option<Vec<Change>> {
         for scan in (0..self.rerun.trace().scans.len()).rev() {
+            if self.is_exhausted(2 * WORK) {
+                return None;
+            }
+            // Looking for what is concerned costs something, too.
+            self.judged.set(self.judged.get() + 2 * slots.len());
             let before = self.before(scan);
             for for_ever in [false, true] {
                 let concerned = slots.iter().filter(|slot| slot.scan == scan || (for_ever && slot.scan > scan));

@@ -117,13 +117,9 @@ impl Teller<'_> {
 
     /// Positions from one on, each once, in the order of time.
     fn onward(&self, at: usize) -> Vec<usize> {
-        let mut positions = Vec::new();
-        let mut next = Some(at);
-        while let Some(at) = next.filter(|at| !positions.contains(at)) {
-            positions.push(at);
-            next = self.next(at);
-        }
-        positions
+        // A loop leads back to what lies before, once.
+        let again = self.broken.evidence.loop_start.map_or(at, |start| start.min(at));
+        (at..self.length()).chain(again..at).collect()
     }
 
     /// Tells why A [hold U release] or A [hold W release] is false.
