@@ -5,6 +5,7 @@
 //! instruction; net and interpreter must agree on every bit at every step, and with what the search claims.
 
 mod columns;
+mod failed;
 mod firing_trace;
 mod fold;
 mod narrate;
@@ -16,6 +17,7 @@ mod table;
 mod writes;
 
 pub use columns::Columns;
+pub use failed::{Failed, failed};
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
 pub use fold::{Fold, Moved, Piece, fold};
 pub use narrate::{Shown, firing_table, line_by_line, piecewise_scan_table, scan_table};
