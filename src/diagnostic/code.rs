@@ -65,6 +65,8 @@ codes! {
     XmlSyntax = "E0112",
     /// A declaration is nested too deeply.
     DeclarationTooDeep = "E0113",
+    /// The text is Siemens Statement List (STL, AWL).
+    StatementList = "E0114",
 
     /// A name is declared twice.
     NameDeclaredTwice = "E0201",
