@@ -14,6 +14,7 @@ use petril::sif::{Kind, Specification};
 use petril::source::Source;
 use petril::translate::System;
 use proptest::prelude::*;
+use support::process::petril;
 use support::systems::system;
 
 /// A program whose variables have the names of operators, too.
@@ -287,7 +288,8 @@ fn what_is_doubtful_is_refused() {
         ("a -> F b", "one side of this is about the first scan only"),
         ("AG (a -> F b)", "a formula of LTL is about one path"),
         ("always (a) & b", "`always` speaks of all that follows"),
-        ("If {a} is true at the end of the PLC cycle, then {b} should always be true.", "expected"),
+        ("If {a} is true at the end of the PLC cycle, then {b} should always be true.", "cannot stand here"),
+        ("AG (i >= 20.5)", "`20.5` is a real number, and formulas have none"),
         ("instance.z", "the program `p` has no variable `instance.z`"),
         ("at most one of (a, b and c)", "expected"),
     ];
@@ -298,4 +300,37 @@ fn what_is_doubtful_is_refused() {
     let file = "function T { interface { input a; input b; input c; output F; } formal { F = a = b = c; } }";
     let (_, diagnostics) = Specification::read(&[Source::new("x.sif", file)]);
     assert_eq!(diagnostics[0][0].message, "two comparisons follow each other");
+}
+
+/// Properties in JSON are patterns with parameters; a description that says something else is told.
+#[test]
+fn properties_of_plcverif_are_requirements() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("p.il", "PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD a\nST q\nEND_PROGRAM");
+    let pattern = |id: &str, parameters: &str, described: &str| {
+        format!("{{\"property_description\": \"says\", \"property\": {{\"job_req\": \"pattern\", \"pattern_id\": \"pattern-{id}\", \
+                 \"pattern_params\": {parameters}, \"pattern_description\": \"{described}\"}}}}")
+    };
+    let same = "true at the end of the PLC cycle, then {1} should always be true at the end of the same cycle.";
+    let list = [
+        pattern("implication", "{\"0\": \"instance.a = TRUE\", \"1\": \"instance.q\"}", &format!("If {{0}} is {same}")),
+        pattern("forbidden", "{\"1\": \"instance.a AND NOT instance.q\"}", "no sentence at all"),
+        "{\"property\": {\"job_req\": \"assertion\"}}".to_owned(),
+        pattern("invariant", "{\"1\": \"q OR NOT a\"}", "{1} is impossible at the end of the PLC cycle."),
+    ];
+    write("p.json", &format!("{{\"id\": \"task\", \"properties_to_be_validated\": [{}]}}", list.join(", ")));
+    let run = petril(folder.path(), &["check", "p.il", "--require", "p.json"]);
+    assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
+    for line in ["HOLDS    task.1: says", "HOLDS    task.2: says", "HOLDS    task.4: says", "3 requirements: 3 hold"] {
+        assert!(run.stdout.contains(line), "{line}\n{}", run.stdout);
+    }
+    assert_eq!(run.stderr.matches("warning[W0514]").count(), 2, "{}", run.stderr);
+    assert!(run.stderr.contains("p.json, property 3") && run.stderr.contains("p.json, property 4"), "{}", run.stderr);
+    for broken in ["{", "[]x", "{\"property\": 3}"] {
+        write("b.json", broken);
+        let run = petril(folder.path(), &["check", "p.il", "--require", "b.json"]);
+        assert_eq!(run.code, 2, "{broken}");
+        assert!(run.stderr.contains("b.json"), "{}", run.stderr);
+    }
 }

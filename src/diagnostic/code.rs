@@ -225,6 +225,8 @@ codes! {
     FairnessUnfit = "E0510",
     /// A formula of LTL has a part that cannot stand in it.
     LtlUnfit = "E0511",
+    /// A property of PLCverif asks for something else than its description, or for nothing that is checked here.
+    PropertyDoubtful = "W0514",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

@@ -118,6 +118,10 @@ fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diag
             Some("LTL" | "G" | "F" | "X") if whole != Rule::lone_formula => {
                 "a formula of LTL is like `LTL G (a & !b -> F c)`"
             }
+            Some(word) if whole == Rule::lone_body && word.eq_ignore_ascii_case("if") => {
+                "a sentence is like `If a is true at the end of the PLC cycle, then b should always be true at the end of the \
+                 same cycle.`"
+            }
             _ => "a formula is like `AG (a & !b -> c)`",
         };
         if diagnostic.help.is_empty() { diagnostic.help(help) } else { diagnostic }
@@ -271,6 +275,11 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
             let (of, time) = (part(&pair, Rule::formula), part(&pair, Rule::duration));
             let (Some(of), Some(time)) = (of, time) else { return Err(missing(span)) };
             Expression::Held(Box::new(formula(of.into_inner())?), duration(&time)?)
+        }
+        Rule::real => {
+            let message = format!("`{text}` is a real number, and formulas have none");
+            let help = "programs with variables of type `REAL` are refused; compare others with whole numbers";
+            return Err(Diagnostic::new(Code::RequirementSyntax, span, message).help(help));
         }
         Rule::number if is_truth(text) => Expression::Truth(constant(&pair)? == 1),
         Rule::number => Expression::Number(constant(&pair)?),
@@ -462,6 +471,8 @@ fn name(rule: Rule) -> Option<&'static str> {
         | Rule::name
         | Rule::group
         | Rule::path_group
+        | Rule::list_item
+        | Rule::among
         | Rule::number => "a formula",
         Rule::and | Rule::implies | Rule::equal | Rule::plus => "an operator",
         Rule::close_brace => "`}`",

@@ -82,6 +82,27 @@ fn told(place: Span) -> Diagnostic {
         .help("`petril explain E0114` has a table; blocks exported as PLCopen XML with bodies in IL are read, too")
 }
 
+/// The operator of Instruction List that does what an instruction of Statement List does.
+#[must_use]
+pub fn standard_operator(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_uppercase().as_str() {
+        "U" | "A" => "AND",
+        "UN" | "AN" => "ANDN",
+        "O" => "OR",
+        "ON" => "ORN",
+        "X" => "XOR",
+        "XN" => "XORN",
+        "L" => "LD",
+        "T" => "ST",
+        "SPA" | "JU" => "JMP",
+        "SPB" | "JC" => "JMPC",
+        "SPBN" | "JCN" => "JMPCN",
+        "BEA" | "BEU" => "RET",
+        "BEB" | "BEC" => "RETC",
+        _ => return None,
+    })
+}
+
 /// The standard's spelling of an address in Siemens's German or without `%`: `%E0.0` and `E0.0` are `%I0.0`.
 #[must_use]
 pub fn standard_address(text: &str) -> Option<String> {
@@ -128,6 +149,11 @@ mod tests {
         ] {
             assert!(statement_list(text).is_none(), "{text}");
         }
+    }
+
+    #[test]
+    fn its_words_have_a_translation() {
+        assert_eq!(["AN", "un", "SPB", "L", "AND"].map(standard_operator), [Some("ANDN"), Some("ANDN"), Some("JMPC"), Some("LD"), None]);
     }
 
     #[test]

@@ -12,7 +12,7 @@ mod plcopen;
 mod print;
 
 pub use comments::{Comments, comments, requirements_in_comments};
-pub use dialect::standard_address;
+pub use dialect::{standard_address, standard_operator};
 pub use parse::parse;
 
 /// The text with blanks instead of comments, of the same length.
