@@ -7,8 +7,7 @@ mod support;
 use std::sync::LazyLock;
 
 use petril::logic::{
-    Body, Bound, Formula, Term, View, bind, parse_fairness, parse_formula, parse_requirement,
-    parse_requirements,
+    Body, Bound, Formula, Term, View, bind, parse_fairness, parse_formula, parse_requirement, parse_requirements,
 };
 use petril::sif::{Kind, Specification};
 use petril::source::Source;
@@ -102,7 +101,10 @@ fn every_spelling_has_its_value_everywhere() {
         (&["a | b", "a || b", "a OR b", "a or b", "a ∨ b"], |a, b, _| a || b),
         (&["a XOR b", "a xor b", "a ⊕ b", "a <> b", "a != b", "a ≠ b"], |a, b, _| a != b),
         (&["!a", "NOT a", "not a", "NOT(a)", "¬a", "~a", "NOT NOT !a"], |a, _, _| !a),
-        (&["a -> b", "a => b", "a ==> b", "a → b", "a ⇒ b", "a implies b", "a IMPLIES b", "(a --> b)"], |a, b, _| !a || b),
+        (
+            &["a -> b", "a => b", "a ==> b", "a → b", "a ⇒ b", "a implies b", "a IMPLIES b", "(a --> b)"],
+            |a, b, _| !a || b,
+        ),
         (&["a <-> b", "a <=> b", "a = b", "a == b", "a ↔ b", "a ⇔ b", "a iff b"], |a, b, _| a == b),
         (&["a = TRUE", "a == true", "a <> FALSE"], |a, _, _| a),
         (&["a | b & c", "a OR b AND c", "a || b && c"], |a, b, c| a || b && c),
@@ -220,12 +222,13 @@ proptest! {
 
 /// The requirement a text becomes, as it would be printed.
 fn required(text: &str) -> Result<String, String> {
-    let requirement = parse_requirement("r", &Source::new("f", text)).map_err(|e| format!("{}; {}", e.message, e.help.join("; ")))?;
+    let requirement =
+        parse_requirement("r", &Source::new("f", text)).map_err(|e| format!("{}; {}", e.message, e.help.join("; ")))?;
     match requirement.body {
         Body::Formula(formula) => bind(&formula, &SYSTEM, View::Scan)
             .map(|bound| bound.text(&SYSTEM))
             .map_err(|errors| errors.into_iter().map(|e| e.message).collect::<Vec<_>>().join("; ")),
-        Body::EveryLine => Ok("every line".to_owned()),
+        other => panic!("{other:?}"),
     }
 }
 
@@ -309,8 +312,10 @@ fn properties_of_plcverif_are_requirements() {
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("p.il", "PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD a\nST q\nEND_PROGRAM");
     let pattern = |id: &str, parameters: &str, described: &str| {
-        format!("{{\"property_description\": \"says\", \"property\": {{\"job_req\": \"pattern\", \"pattern_id\": \"pattern-{id}\", \
-                 \"pattern_params\": {parameters}, \"pattern_description\": \"{described}\"}}}}")
+        format!(
+            "{{\"property_description\": \"says\", \"property\": {{\"job_req\": \"pattern\", \"pattern_id\": \"pattern-{id}\", \
+                 \"pattern_params\": {parameters}, \"pattern_description\": \"{described}\"}}}}"
+        )
     };
     let same = "true at the end of the PLC cycle, then {1} should always be true at the end of the same cycle.";
     let list = [

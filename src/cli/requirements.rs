@@ -119,10 +119,12 @@ impl Asked {
                     self.texts.push(Text { described, ..Text::new(read, diagnostics, source) });
                 }
                 plcverif::Asked::Assertions => {
-                    let message = "this property asks for the assertions of the program, which are checked without asking";
+                    let message =
+                        "this property asks for the assertions of the program, which are checked without asking";
                     let help = "they stand in its comments, like `(*@ assert a -> b; *)`; those of other languages are not read";
                     let source = Source::new(place, "assertion");
-                    let told = Diagnostic::new(Code::PropertyDoubtful, Span::new(0, source.text().len()), message).help(help);
+                    let told =
+                        Diagnostic::new(Code::PropertyDoubtful, Span::new(0, source.text().len()), message).help(help);
                     self.texts.push(Text::new(RequirementFile::default(), vec![told], source));
                 }
             }
@@ -207,14 +209,12 @@ impl Asked {
                 }
                 let described = described.as_ref().and_then(|described| bind_requirement(described, system, view).ok());
                 match bind_requirement(&requirement, system, view) {
-                    Ok(demand) if described.as_ref().is_some_and(|other| other.formula() != demand.formula()) => {
-                        let message = "the description of this property says something else than its parameters";
-                        let said = described.as_ref().and_then(Demand::formula).map(|formula| formula.text(system));
-                        let help = format!("the parameters are checked, and not `{}`", said.unwrap_or_default());
-                        diagnostics.push(Diagnostic::new(Code::PropertyDoubtful, requirement.span, message).help(help));
+                    Ok(demand) => {
+                        diagnostics.extend(requirement.doubt(view));
+                        diagnostics
+                            .extend(described.and_then(|other| contradiction(&requirement, [&demand, &other], system)));
                         bound.requirements.push((told(requirement, &demand, system), demand));
                     }
-                    Ok(demand) => bound.requirements.push((told(requirement, &demand, system), demand)),
                     Err(errors) => diagnostics.extend(errors),
                 }
             }
@@ -226,12 +226,20 @@ impl Asked {
     }
 }
 
+/// The warning that the parameters of a property ask for the first of these, and its description for the second.
+fn contradiction(requirement: &Requirement, [asked, described]: [&Demand; 2], system: &System) -> Option<Diagnostic> {
+    let said = described.formula().filter(|&said| asked.formula() != Some(said))?;
+    let message = "the description of this property says something else than its parameters";
+    let help = format!("the parameters are checked, and not `{}`", said.text(system));
+    Some(Diagnostic::new(Code::PropertyDoubtful, requirement.span, message).help(help))
+}
+
 /// A formula of a pattern that is longer says less than the pattern.
 const LONG: usize = 160;
 
 /// The requirement with the formula that its pattern stands for.
 fn told(requirement: Requirement, demand: &Demand, system: &System) -> Requirement {
-    let formula = demand.formula().filter(|_| requirement.words.is_some()).map(|formula| formula.text(system));
+    let formula = demand.text(system).filter(|_| requirement.words.is_some());
     match formula.filter(|text| text.len() <= LONG) {
         Some(text) => Requirement { text, ..requirement },
         None => requirement,

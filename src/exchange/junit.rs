@@ -76,6 +76,9 @@ fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
     for assumption in &checked.report.assumptions {
         property("assumed", assumption)?;
     }
+    for warning in &checked.report.warnings {
+        property("warning", warning)?;
+    }
     for answer in checked.answers() {
         for tag in &answer.tags {
             property(&format!("{}.{}", answer.name, tag.name), tag.value.as_deref().unwrap_or("true"))?;
