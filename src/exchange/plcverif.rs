@@ -132,11 +132,21 @@ mod tests {
         assert_eq!(found[1].name, "v1E.2");
     }
 
-    const BRACES: &str = r#"{ "job_req": "pattern", "pattern_id": "pattern-implication", "pattern_params": { "1": "a}, {b" } }"#;
+    const BRACES: &str =
+        r#"{ "job_req": "pattern", "pattern_id": "pattern-implication", "pattern_params": { "1": "a}, {b" } }"#;
 
     #[test]
     fn what_is_none_is_refused() {
-        for text in ["", "{", "[1]", "{}", "{\"job_req\": \"pattern\"}", "{\"job_req\": \"magic\"}", BRACES, "[{\"a\": \u{e9}}]"] {
+        for text in [
+            "",
+            "{",
+            "[1]",
+            "{}",
+            "{\"job_req\": \"pattern\"}",
+            "{\"job_req\": \"magic\"}",
+            BRACES,
+            "[{\"a\": \u{e9}}]",
+        ] {
             assert!(properties(text).is_err(), "{text}");
         }
     }

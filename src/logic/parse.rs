@@ -348,7 +348,8 @@ fn call(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     let name = called.as_str();
     if ["always", "never"].iter().any(|word| name.eq_ignore_ascii_case(word)) {
         let message = format!("`{name}` speaks of all that follows");
-        let help = format!("put parentheses around all of it, `{name} (a -> b)`, or write `AG (a) & b` if that is meant");
+        let help =
+            format!("put parentheses around all of it, `{name} (a -> b)`, or write `AG (a) & b` if that is meant");
         return Err(Diagnostic::new(Code::RequirementSyntax, span(&called), message).help(help));
     }
     let Some(past) = Past::ALL.into_iter().find(|past| past.name().eq_ignore_ascii_case(name)) else {

@@ -74,7 +74,9 @@ pub fn read(text: &str) -> Option<(Area, Option<Type>)> {
 pub fn unreadable(address: &Name) -> Diagnostic {
     let message = format!("`{}` is no address that can be read", address.text);
     let help = match standard_address(&address.text) {
-        Some(standard) => format!("an address begins with `%`, with I for an input and Q for an output: write `{standard}`"),
+        Some(standard) => {
+            format!("an address begins with `%`, with I for an input and Q for an output: write `{standard}`")
+        }
         None => "an address is like `%IX0.0`, `%QW3` or `%MD12`".to_owned(),
     };
     Diagnostic::new(Code::AddressUnfit, address.span, message).help(help)

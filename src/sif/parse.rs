@@ -206,7 +206,8 @@ impl Reader {
         let chained = |pair: &Pair<'_, Rule>| pair.clone().into_inner().filter(is_chained).count();
         let all = std::iter::once(pair.clone()).chain(pair.clone().into_inner().flatten());
         let mut all = all.filter(|p| matches!(p.as_rule(), Rule::formula | Rule::list_item));
-        let second = |p: Pair<'_, Rule>| chained!(p.into_inner(), Rule: equal | unequal; iff | implies | or | xor | and);
+        let second =
+            |p: Pair<'_, Rule>| chained!(p.into_inner(), Rule: equal | unequal; iff | implies | or | xor | and);
         if let Some(second) = all.clone().find_map(second) {
             self.diagnostics.push(two_comparisons(Code::SifSyntax, second));
             return None;

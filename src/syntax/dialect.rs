@@ -5,12 +5,13 @@ use crate::source::Span;
 
 /// Words that begin a line of Statement List and an operand, with those of both mnemonics.
 const WITH_OPERAND: [&str; 34] = [
-    "U", "UN", "O", "ON", "X", "XN", "A", "AN", "L", "T", "=", "FP", "FN", "SPA", "SPB", "SPBN", "SPBB", "SPBNB", "SPBI", "SPZ",
-    "SPN", "SPP", "SPM", "JU", "JC", "JCN", "JCB", "JNB", "UC", "CC", "AUF", "OPN", "ZV", "ZR",
+    "U", "UN", "O", "ON", "X", "XN", "A", "AN", "L", "T", "=", "FP", "FN", "SPA", "SPB", "SPBN", "SPBB", "SPBNB",
+    "SPBI", "SPZ", "SPN", "SPP", "SPM", "JU", "JC", "JCN", "JCB", "JNB", "UC", "CC", "AUF", "OPN", "ZV", "ZR",
 ];
 /// Words that are all of a line.
 const ALONE: [&str; 18] = [
-    "U(", "UN(", "O(", "ON(", "A(", "AN(", "X(", "XN(", "SET", "CLR", "SAVE", "BE", "BEA", "BEB", "BEU", "BEC", "==I", "<>I",
+    "U(", "UN(", "O(", "ON(", "A(", "AN(", "X(", "XN(", "SET", "CLR", "SAVE", "BE", "BEA", "BEB", "BEU", "BEC", "==I",
+    "<>I",
 ];
 /// Words with which only Statement List begins a block or a part of one.
 const BLOCKS: [&str; 4] = ["ORGANIZATION_BLOCK", "END_ORGANIZATION_BLOCK", "DATA_BLOCK", "END_DATA_BLOCK"];
@@ -43,7 +44,8 @@ pub fn statement_list(text: &str) -> Option<Diagnostic> {
             Sign::None => {}
         }
     }
-    let is_named = likely.iter().any(|&Span { start, end }| text[start..end].starts_with(|c: char| c.is_ascii_alphabetic()));
+    let is_named =
+        likely.iter().any(|&Span { start, end }| text[start..end].starts_with(|c: char| c.is_ascii_alphabetic()));
     likely.first().filter(|_| is_named && likely.len() > 1 && !is_standard).map(|&first| told(first))
 }
 
@@ -117,7 +119,8 @@ pub fn standard_address(text: &str) -> Option<String> {
     let rest = &plain[1..];
     let numbers = rest.strip_prefix(['X', 'B', 'W', 'D']).unwrap_or(rest);
     let are_numbers = numbers.split('.').all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()));
-    (are_numbers && (numbers.contains('.') || rest != numbers || upper.starts_with('%'))).then(|| format!("%{area}{rest}"))
+    (are_numbers && (numbers.contains('.') || rest != numbers || upper.starts_with('%')))
+        .then(|| format!("%{area}{rest}"))
 }
 
 #[cfg(test)]
@@ -153,7 +156,10 @@ mod tests {
 
     #[test]
     fn its_words_have_a_translation() {
-        assert_eq!(["AN", "un", "SPB", "L", "AND"].map(standard_operator), [Some("ANDN"), Some("ANDN"), Some("JMPC"), Some("LD"), None]);
+        assert_eq!(
+            ["AN", "un", "SPB", "L", "AND"].map(standard_operator),
+            [Some("ANDN"), Some("ANDN"), Some("JMPC"), Some("LD"), None]
+        );
     }
 
     #[test]

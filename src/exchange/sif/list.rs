@@ -18,15 +18,41 @@ const HEADS: [(&str, &[&str]); 8] = [
     ("address", &["address", "variable", "channel", "plc address", "plc variable"]),
     ("zone", &["zone", "area", "group"]),
     ("function", &["function", "sif", "safety function"]),
-    ("rest", &["rest", "normally", "normal", "rest value", "normal value", "contact", "contact type", "nc/no", "no/nc"]),
+    (
+        "rest",
+        &["rest", "normally", "normal", "rest value", "normal value", "contact", "contact type", "nc/no", "no/nc"],
+    ),
     ("data type", &["data type", "datatype", "signal type"]),
 ];
 
 /// Kinds of signals, and types of data, that are not Boolean.
 const ANALOGUE: [&str; 26] = [
-    "ai", "ao", "analog", "analogue", "analog input", "analogue input", "analog output", "analogue output", "analog in",
-    "analog out", "sint", "int", "dint", "lint", "usint", "uint", "udint", "ulint", "byte", "word", "dword", "lword", "real",
-    "lreal", "time", "string",
+    "ai",
+    "ao",
+    "analog",
+    "analogue",
+    "analog input",
+    "analogue input",
+    "analog output",
+    "analogue output",
+    "analog in",
+    "analog out",
+    "sint",
+    "int",
+    "dint",
+    "lint",
+    "usint",
+    "uint",
+    "udint",
+    "ulint",
+    "byte",
+    "word",
+    "dword",
+    "lword",
+    "real",
+    "lreal",
+    "time",
+    "string",
 ];
 
 /// The rows of a text with values between commas, semicolons or tabs.
@@ -124,9 +150,8 @@ impl Frame {
             address if address.starts_with('%') => format!(" at {address}"),
             variable => format!(" is {variable}"),
         };
-        let is_at_rest = at_rest(rest).ok_or_else(|| {
-            format!("`{rest}` does not say what `{said}` is at rest: write NC or TRUE, NO or FALSE")
-        })?;
+        let is_at_rest = at_rest(rest)
+            .ok_or_else(|| format!("`{rest}` does not say what `{said}` is at rest: write NC or TRUE, NO or FALSE"))?;
         if !is_output && is_at_rest {
             declaration += " normally TRUE";
         }

@@ -151,9 +151,9 @@ pub(super) fn body(pair: Pair<'_, Rule>) -> Result<(Body, Option<String>), Diagn
         Rule::short => {
             let name = text.split('(').next().unwrap_or_default().trim().replace('-', "_").to_ascii_lowercase();
             let name = name.strip_prefix("pattern_").unwrap_or(&name);
-            let known = PATTERNS.iter().find(|(_, _, short, _)| {
-                short.split('(').next().is_some_and(|short| short.eq_ignore_ascii_case(name))
-            });
+            let known = PATTERNS
+                .iter()
+                .find(|(_, _, short, _)| short.split('(').next().is_some_and(|short| short.eq_ignore_ascii_case(name)));
             (known, parts(inner)?)
         }
         Rule::spoken => {
