@@ -57,11 +57,11 @@ pub fn properties(text: &str) -> Result<Vec<Property>, Diagnostic> {
     })?;
     let task = document.get("id").and_then(Value::as_str).map_or("p".to_owned(), |id| format!("{}.", word(id)));
     let listed = document.get("properties_to_be_validated").unwrap_or(&document);
-    let list = match listed {
+    let list: Vec<&Value> = match listed {
         Value::Array(list) => list.iter().collect(),
         one => vec![one],
     };
-    let property = |(position, value): (usize, &Value)| {
+    let property = |(position, value): (usize, &Value)| -> Result<Property, Diagnostic> {
         let name = format!("{task}{}", position + 1);
         let sentence = value.get("property_description").and_then(Value::as_str).map(one_line);
         let asked = value.get("property").unwrap_or(value).as_object().and_then(asked).ok_or_else(|| {
