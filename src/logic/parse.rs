@@ -475,10 +475,9 @@ fn name(rule: Rule) -> Option<&'static str> {
         | Rule::list_item
         | Rule::among
         | Rule::number => "a formula",
-        Rule::and | Rule::implies | Rule::equal | Rule::plus => "an operator",
+        Rule::and | Rule::implies | Rule::equal | Rule::plus | Rule::path_until => "an operator",
         Rule::close_brace => "`}`",
         Rule::until_operator => "`U` or `W`",
-        Rule::path_until => "`U`, `W` or `R`",
         Rule::close_group => "`)`",
         Rule::close_until => "`]`",
         Rule::line => "a line number",
