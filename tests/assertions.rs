@@ -69,9 +69,9 @@ fn assertions_are_about_the_moment_before_an_instruction() {
             ("out_is_old", 0, "holds"),
             ("copied", 0, "holds"),
             // Control comes there by the jump, too, where Out is not In: with In and without Gate.
-            ("assert_13", 1, "before line 7 (`LD Out`), `Out = In` was false"),
+            ("assert_13", 1, "before line 7 of the flat code (`LD Out`), `Out = In` was false"),
             // Gate is off, and Out still on: a scan before has put it on.
-            ("gated", 2, "before line 8 (`ST Mem`), `Out = (Mem & Gate)` was false"),
+            ("gated", 2, "before line 8 of the flat code (`ST Mem`), `Out = (Mem & Gate)` was false"),
         ]
     );
 }

@@ -5,6 +5,7 @@
 fn sessions_go_as_shown() {
     trycmd::TestCases::new()
         .case("tests/cli/*.md")
+        .case("README.md")
         .case("docs/requirements.md")
         .case("docs/safety-functions.md")
         .case("docs/examples.md")

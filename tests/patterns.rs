@@ -309,7 +309,13 @@ fn every_line_is_reachable() {
     let report = report(&never, "requirement r: every_line_reachable();");
     let witness = answer(&report, "r").outcome.witness().expect("a run");
     let notes: Vec<&str> = witness.notes.iter().map(|note| note.text.as_str()).collect();
-    assert_eq!(notes, ["no scan ever comes to line 3 (`LD In`)", "no scan ever comes to line 4 (`ST Out`)"]);
+    assert_eq!(
+        notes,
+        [
+            "no scan ever comes to line 3 of the flat code (`LD In`)",
+            "no scan ever comes to line 4 of the flat code (`ST Out`)"
+        ]
+    );
 }
 
 #[test]
@@ -318,7 +324,13 @@ fn a_line_that_no_jump_leads_to_is_not_reachable() {
     let report = report(&dead, "requirement r: every_line_reachable();");
     let witness = answer(&report, "r").outcome.witness().expect("a run");
     let notes: Vec<&str> = witness.notes.iter().map(|note| note.text.as_str()).collect();
-    assert_eq!(notes, ["no scan ever comes to line 4 (`LD Out`)", "no scan ever comes to line 5 (`ST Out`)"]);
+    assert_eq!(
+        notes,
+        [
+            "no scan ever comes to line 4 of the flat code (`LD Out`)",
+            "no scan ever comes to line 5 of the flat code (`ST Out`)"
+        ]
+    );
     assert_eq!(report.coverage.and_then(|coverage| coverage.never_executed), Some(vec![3, 4]));
 }
 

@@ -73,6 +73,36 @@ fn a_list_becomes_a_frame_whose_errors_are_what_is_left_to_do() {
     assert_eq!(specification.unwrap().inputs().count(), 4);
 }
 
+/// Closed contacts are TRUE at rest, and addresses are addresses, however they are written.
+#[test]
+fn contacts_and_addresses_are_read() {
+    let list = "name,address,contact\nA,%I0.0,NC\nB,I0.1,NO\nC,E0.2,\nD,Door.Closed,nc\nQ,A4.0,\nR,%q1.0,\n";
+    let frame = list::frame("x", &list::rows_of_text(&list.replace("D,Door.Closed", "D,%IX1.0")).unwrap()).unwrap();
+    for line in [
+        "input A at %I0.0 normally TRUE;",
+        "input B at %I0.1;",
+        "input C at %I0.2;",
+        "input D at %IX1.0 normally TRUE;",
+        "output Q at %Q4.0;",
+        "output R at %Q1.0;",
+    ] {
+        assert!(frame.lines().any(|made| made.trim() == line), "{line}\n{frame}");
+    }
+    let frame = list::frame("x", &list::rows_of_text("name,direction,variable\nD,in,Door.Closed\n").unwrap()).unwrap();
+    assert!(frame.contains("input D is Door.Closed;"), "{frame}");
+}
+
+#[test]
+fn what_is_not_boolean_is_refused() {
+    let refused = |text: &str| list::frame("x", &list::rows_of_text(text).unwrap()).unwrap_err();
+    for row in ["T,AI,,", "T,in,%IW4,", "T,in,EW4,", "T,in,%ID4,", "T,in,,REAL", "T,in,,int"] {
+        let said = refused(&format!("name,direction,address,data type\n{row}\n"));
+        assert!(said[0].starts_with("row 2: `T` is not Boolean"), "{row}: {said:?}");
+    }
+    let said = refused("name,direction,contact\nA,in,maybe\n");
+    assert_eq!(said, ["row 2: `maybe` does not say what `A` is at rest: write NC or TRUE, NO or FALSE"]);
+}
+
 #[test]
 fn what_is_no_list_is_refused() {
     let refused = |text: &str| list::frame("x", &list::rows_of_text(text).unwrap()).unwrap_err();

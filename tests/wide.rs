@@ -252,7 +252,7 @@ fn an_error_is_told_in_its_line() {
     assert_eq!(rows.len(), 3);
     assert_eq!(told, ["255", "0 overflow", "0 c = 0"]);
     let Outcome::Violated(witness, _) = &report.checks[1].outcome else { panic!("{:?}", report.checks[1]) };
-    assert_eq!(witness.notes[0].text, "a number did not fit its type in line 2 (`ADD 1`)");
+    assert_eq!(witness.notes[0].text, "a number did not fit its type in line 2 of the flat code (`ADD 1`)");
 }
 
 /// In the transition view the bits of a number are places, and so are hazards.

@@ -1,6 +1,7 @@
 //! `petril check`: requirements on a program.
 
 use std::ffi::OsString;
+use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -102,7 +103,12 @@ pub fn checked(
     let mut reading = arguments.meaning.reading.clone();
     reading.scan_time = reading.scan_time.or(asked.scan_time());
     let mut plants = arguments.plant.clone();
-    plants.extend(asked.plants());
+    // A plant that a requirement file names may be given on the command line, too.
+    for named in asked.plants() {
+        if !plants.iter().any(|known| is_one_file(known, &named)) {
+            plants.push(named);
+        }
+    }
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     show::refuse_unknown(&program, &arguments.show)?;
     let domains = asked.domains(&program, &plant);
@@ -148,6 +154,11 @@ pub fn checked(
     watcher.finish();
     add_warnings(&mut report, console);
     Ok(Done { system, source, report, started })
+}
+
+/// Whether two paths lead to the same file.
+fn is_one_file(one: &Path, other: &Path) -> bool {
+    matches!((fs::canonicalize(one), fs::canonicalize(other)), (Ok(one), Ok(other)) if one == other)
 }
 
 /// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.

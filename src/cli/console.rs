@@ -122,7 +122,7 @@ impl Console {
 
     /// The warnings printed so far, each with its code, where it stands, and its message.
     pub fn warnings(&self) -> Vec<(String, String, String)> {
-        let printed = self.printed.borrow();
+        let printed = lock(&self.printed);
         let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
         let warnings = printed.iter().filter(|diagnostic| diagnostic["severity"] == "warning");
         let place = |d: &Value| format!("{}:{}:{}", text(&d["file"]), d["line"], d["column"]);

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use petril::diagnostic::{Code, Diagnostic, any_error};
+use petril::exchange::plcverif::{self, Property};
 use petril::flat::FlatProgram;
 use petril::logic::{
     Assertion, Assumption, Demand, FairnessAssumption, FairnessText, Requirement, RequirementFile, View,
     bind_assertion, bind_assumption, bind_domain, bind_fairness, bind_requirement, parse_domain, parse_fairness,
     parse_requirement, parse_requirements,
 };
-use petril::source::Source;
+use petril::source::{Source, Span};
 use petril::syntax;
 use petril::translate::{Domains, Plant, System};
 
@@ -25,6 +26,14 @@ struct Text {
     source: Source,
     /// Whether it stands in the comments of the program.
     is_program: bool,
+    /// The description of its only requirement, if that is a sentence.
+    described: Option<Requirement>,
+}
+
+impl Text {
+    fn new(file: RequirementFile, diagnostics: Vec<Diagnostic>, source: Source) -> Self {
+        Self { file, diagnostics, source, is_program: false, described: None }
+    }
 }
 
 /// All that is asked, in the order in which it is answered.
@@ -50,36 +59,24 @@ impl Asked {
         for (i, text) in arguments.domain.iter().enumerate() {
             let source = Source::new(format!("domain {}", i + 1), text.as_str());
             let (domains, diagnostics) = split(parse_domain(&source));
-            asked.texts.push(Text {
-                file: RequirementFile { domains, ..Default::default() },
-                diagnostics,
-                source,
-                is_program: false,
-            });
+            asked.texts.push(Text::new(RequirementFile { domains, ..Default::default() }, diagnostics, source));
         }
         for (i, text) in arguments.fairness.iter().enumerate() {
             let source = Source::new(format!("fairness {}", i + 1), text.as_str());
             let (fairness, diagnostics) = split(parse_fairness(&source));
-            asked.texts.push(Text {
-                file: RequirementFile { fairness, ..Default::default() },
-                diagnostics,
-                source,
-                is_program: false,
-            });
+            asked.texts.push(Text::new(RequirementFile { fairness, ..Default::default() }, diagnostics, source));
         }
         for (i, text) in arguments.requirement.iter().enumerate() {
             let name = format!("r{}", i + 1);
             let source = Source::new(format!("formula {name}"), text.as_str());
             let (requirements, diagnostics) = split(parse_requirement(&name, &source));
-            asked.texts.push(Text {
-                file: RequirementFile { requirements, ..Default::default() },
-                diagnostics,
-                source,
-                is_program: false,
-            });
+            asked.texts.push(Text::new(RequirementFile { requirements, ..Default::default() }, diagnostics, source));
         }
         for file in &arguments.require {
             match source(file, MAX_TEXT, console) {
+                Ok(source) if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+                    asked.read_properties(source);
+                }
                 Ok(source) => asked.read_text(source),
                 Err(Failure::Reported) => asked.failed = true,
                 Err(failure) => return Err(failure),
@@ -94,13 +91,44 @@ impl Asked {
             let (file, diagnostics) = parse_requirements(&Source::new(program.name().to_owned(), text));
             // Everything stands where it stands in the program.
             let source = Source::new(program.name().to_owned(), program.text());
-            self.texts.push(Text { file, diagnostics, source, is_program: true });
+            self.texts.push(Text { is_program: true, ..Text::new(file, diagnostics, source) });
         }
     }
 
     fn read_text(&mut self, source: Source) {
         let (file, diagnostics) = parse_requirements(&source);
-        self.texts.push(Text { file, diagnostics, source, is_program: false });
+        self.texts.push(Text::new(file, diagnostics, source));
+    }
+
+    /// Reads a file of PLCverif's properties: each is a text of its own.
+    fn read_properties(&mut self, file: Source) {
+        let properties = match plcverif::properties(file.text()) {
+            Ok(properties) => properties,
+            Err(error) => return self.texts.push(Text::new(RequirementFile::default(), vec![error], file)),
+        };
+        for (position, Property { name, sentence, asked }) in properties.into_iter().enumerate() {
+            let place = format!("{}, property {}", file.name(), position + 1);
+            match asked {
+                plcverif::Asked::Pattern { short, described } => {
+                    let source = Source::new(place, short);
+                    let (mut requirements, diagnostics) = split(parse_requirement(&name, &source));
+                    requirements.iter_mut().for_each(|requirement| requirement.sentence.clone_from(&sentence));
+                    let described = described.map(|text| parse_requirement(&name, &Source::new("description", text)));
+                    let described = described.and_then(Result::ok);
+                    let read = RequirementFile { requirements, ..Default::default() };
+                    self.texts.push(Text { described, ..Text::new(read, diagnostics, source) });
+                }
+                plcverif::Asked::Assertions => {
+                    let message =
+                        "this property asks for the assertions of the program, which are checked without asking";
+                    let help = "they stand in its comments, like `(*@ assert a -> b; *)`; those of other languages are not read";
+                    let source = Source::new(place, "assertion");
+                    let told =
+                        Diagnostic::new(Code::PropertyDoubtful, Span::new(0, source.text().len()), message).help(help);
+                    self.texts.push(Text::new(RequirementFile::default(), vec![told], source));
+                }
+            }
+        }
     }
 
     /// The plants that files name, as paths from where the program runs.
@@ -140,7 +168,7 @@ impl Asked {
     pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
         let mut bound = Bound::default();
-        for Text { file, mut diagnostics, source, is_program } in self.texts {
+        for Text { file, mut diagnostics, source, is_program, described } in self.texts {
             for assumption in &file.assumptions {
                 match bind_assumption(assumption, system, view) {
                     Ok(assumption) => bound.assumptions.push(assumption),
@@ -179,9 +207,12 @@ impl Asked {
                 if diagnostics.len() >= MAX_DIAGNOSTICS {
                     break;
                 }
+                let described = described.as_ref().and_then(|described| bind_requirement(described, system, view).ok());
                 match bind_requirement(&requirement, system, view) {
                     Ok(demand) => {
                         diagnostics.extend(requirement.doubt(view));
+                        diagnostics
+                            .extend(described.and_then(|other| contradiction(&requirement, [&demand, &other], system)));
                         bound.requirements.push((told(requirement, &demand, system), demand));
                     }
                     Err(errors) => diagnostics.extend(errors),
@@ -193,6 +224,14 @@ impl Asked {
         }
         if failed { Err(Failure::Reported) } else { Ok(bound) }
     }
+}
+
+/// The warning that the parameters of a property ask for the first of these, and its description for the second.
+fn contradiction(requirement: &Requirement, [asked, described]: [&Demand; 2], system: &System) -> Option<Diagnostic> {
+    let said = described.formula().filter(|&said| asked.formula() != Some(said))?;
+    let message = "the description of this property says something else than its parameters";
+    let help = format!("the parameters are checked, and not `{}`", said.text(system));
+    Some(Diagnostic::new(Code::PropertyDoubtful, requirement.span, message).help(help))
 }
 
 /// A formula of a pattern that is longer says less than the pattern.

@@ -65,6 +65,8 @@ codes! {
     XmlSyntax = "E0112",
     /// A declaration is nested too deeply.
     DeclarationTooDeep = "E0113",
+    /// The text is Siemens Statement List (STL, AWL).
+    StatementList = "E0114",
 
     /// A name is declared twice.
     NameDeclaredTwice = "E0201",
@@ -233,6 +235,8 @@ codes! {
     LtlUnfit = "E0511",
     /// A formula speaks of the beginning of a run only.
     FormulaOfBeginning = "W0512",
+    /// A property of PLCverif asks for something else than its description, or for nothing that is checked here.
+    PropertyDoubtful = "W0514",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

@@ -17,6 +17,7 @@ pub mod json;
 pub mod junit;
 pub mod lola;
 pub mod mcc;
+pub mod plcverif;
 pub mod pnml;
 pub mod proof;
 pub mod recorded;

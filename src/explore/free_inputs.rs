@@ -64,7 +64,10 @@ impl FreeInputs {
         let advice = if wide.first().is_some_and(|input| input.domain.size() > 2) {
             format!("say which values matter, as with `--domain '{widest}: 0..100'`, or what a plant can give them")
         } else {
-            "say with a plant what cannot happen".to_owned()
+            format!(
+                "say with a plant or an assumption what cannot happen, or which values matter: `--domain '{widest}: FALSE'` \
+                 keeps one as it is"
+            )
         };
         let names = names.join(", ");
         Some(format!("a scan can read more than {MAX_FAN_OUT} combinations of values of the inputs {names}: {advice}"))

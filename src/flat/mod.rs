@@ -108,6 +108,21 @@ impl FlatProgram {
         self.declared().find(|&id| self.variable(id).name.eq_ignore_ascii_case(name))
     }
 
+    /// The variable of a name in a formula: as it is declared, or with the program before it, `starter.Motor`, or with PLCverif's word
+    /// for the block under check, `instance.Motor`. What is declared goes first.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<VarId> {
+        self.find(name).or_else(|| {
+            let (block, rest) = name.split_once('.')?;
+            let is_block = block.eq_ignore_ascii_case("instance") || block.eq_ignore_ascii_case(&self.name);
+            let is_declared = self.declared().any(|id| {
+                let first = self.variable(id).name.split(['.', '[']).next();
+                first.is_some_and(|first| first.eq_ignore_ascii_case(block))
+            });
+            self.find(rest).filter(|_| is_block && !is_declared)
+        })
+    }
+
     /// The elementary variable at an address like `%IX0.0`, however it is spelt.
     #[must_use]
     pub fn at(&self, address: &str) -> Option<VarId> {

@@ -30,7 +30,7 @@ pub fn bind_domain(
     let DomainText { name, span, ranges } = text;
     let unfit = |message: String| Diagnostic::new(Code::DomainUnfit, *span, message);
     let inputs = || program.with_role(Role::Input).map(|id| program.variable(id).name.as_str());
-    let Some(input) = program.find(name) else {
+    let Some(input) = program.named(name) else {
         let message = format!("the program `{}` has no input `{name}`", program.name);
         return Err(Diagnostic::new(Code::RequirementNameUnknown, *span, message).suggest(name, inputs()));
     };

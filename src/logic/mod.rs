@@ -53,6 +53,7 @@ pub use parse::{
     AssertionText, AssumptionText, Body, Origin, PlantText, Requirement, RequirementFile, Tag, parse_domain,
     parse_fairness, parse_formula, parse_requirement, parse_requirements,
 };
+pub(crate) use parse::{priorities, two_comparisons};
 pub use past::{History, Past, remembered};
 pub use representatives::representatives;
 pub use vacuity::{Premise, Step, premises};

@@ -7,6 +7,7 @@ use pest::error::Error;
 use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 use pest_derive::Parser;
+use priorities::{chained, comparisons, connectives};
 use serde::{Deserialize, Serialize};
 
 use super::domain::DomainText;
@@ -20,6 +21,7 @@ mod fairness;
 mod file;
 mod ltl;
 mod patterns;
+pub(crate) mod priorities;
 
 pub use fairness::parse_fairness;
 pub use file::{AssertionText, AssumptionText, PlantText, RequirementFile, parse_domain, parse_requirements};
@@ -27,6 +29,7 @@ pub(super) use ltl::of_ctl;
 pub use patterns::Body;
 
 #[derive(Parser)]
+#[grammar = "../grammar/expression.pest"]
 #[grammar = "../grammar/requirement.pest"]
 struct RequirementParser;
 
@@ -111,8 +114,13 @@ fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diag
         let first = text.trim_start().split(|letter: char| !letter.is_alphanumeric()).next();
         let help = match first {
             Some("LTL") if whole == Rule::lone_formula => "this must be a formula of CTL, like `AG (a & !b -> AF c)`",
+            Some("G" | "F" | "X") if whole == Rule::lone_formula => "this must be about one state, or a formula of CTL",
             Some("LTL" | "G" | "F" | "X") if whole != Rule::lone_formula => {
                 "a formula of LTL is like `LTL G (a & !b -> F c)`"
+            }
+            Some(word) if whole == Rule::lone_body && word.eq_ignore_ascii_case("if") => {
+                "a sentence is like `If a is true at the end of the PLC cycle, then b should always be true at the end of the \
+                 same cycle.`"
             }
             _ => "a formula is like `AG (a & !b -> c)`",
         };
@@ -122,36 +130,27 @@ fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diag
     parts.next().ok_or_else(|| Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"))
 }
 
-/// The formula of a pair of the rule `formula` or `ltl`, unless it is too large.
+/// The formula of a pair of the rule `formula`, `list_item`, `ltl` or `path`, unless it is too large.
 fn checked_formula(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     if pair.clone().into_inner().flatten().take(MAX_PARTS + 1).count() > MAX_PARTS {
         let message = format!("this formula has more than {MAX_PARTS} parts");
         let help = "split it into several requirements";
         return Err(Diagnostic::new(Code::RequirementSyntax, span(&pair), message).help(help));
     }
-    if pair.as_rule() == Rule::ltl { ltl::whole(pair) } else { formula(pair.into_inner()) }
+    match pair.as_rule() {
+        Rule::ltl => ltl::whole(pair),
+        Rule::path => ltl::bare(pair),
+        _ => formula(pair.into_inner()),
+    }
 }
 
 static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
-    let left = |rule| Op::infix(rule, Assoc::Left);
-    PrattParser::new()
-        .op(left(Rule::iff))
-        .op(Op::infix(Rule::implies, Assoc::Right))
-        .op(left(Rule::or))
-        .op(left(Rule::and))
-        .op(Op::postfix(Rule::within))
-        .op(left(Rule::equal)
-            | left(Rule::unequal)
-            | left(Rule::less)
-            | left(Rule::at_most)
-            | left(Rule::greater)
-            | left(Rule::at_least))
-        .op(left(Rule::plus) | left(Rule::minus))
-        .op(left(Rule::times))
+    comparisons!(connectives!(Rule).op(Op::postfix(Rule::within)), Rule)
         .op(Op::prefix(Rule::not) | Op::prefix(Rule::temporal))
 });
 
 fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
+    unambiguous(pairs.clone())?;
     PRATT
         .map_primary(primary)
         .map_prefix(|operator, operand| {
@@ -176,6 +175,31 @@ fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
         .parse(pairs)
 }
 
+/// Refuses the parts of a formula if they do not say what their author means, or nothing at all.
+fn unambiguous(mut pairs: Pairs<'_, Rule>) -> Result<(), Diagnostic> {
+    if let Some(operator) = pairs.clone().find(|part| part.as_rule() == Rule::unfit) {
+        let message = format!("there is no operator `{}` in formulas", operator.as_str());
+        let help = match operator.as_str() {
+            "**" => "write the product: `a * a`",
+            _ => "formulas add, subtract and multiply: for `a / 2 = b` write `2 * b <= a & a < 2 * b + 2`",
+        };
+        return Err(Diagnostic::new(Code::RequirementSyntax, span(&operator), message).help(help));
+    }
+    let second = chained!(
+        pairs, Rule: equal | unequal | less | at_most | greater | at_least; iff | implies | or | xor | and | path_until
+    );
+    match second {
+        None => Ok(()),
+        Some(second) => Err(two_comparisons(Code::RequirementSyntax, second)),
+    }
+}
+
+/// The error that a comparison follows another one.
+pub(crate) fn two_comparisons(code: Code, second: Span) -> Diagnostic {
+    Diagnostic::new(code, second, "two comparisons follow each other")
+        .help("write `a = b & b = c`, or put one of them in parentheses: `(a = b) = c` compares the truth of `a = b` with `c`")
+}
+
 /// Two formulas with an operator between them.
 fn joined(left: Formula, operator: Rule, right: Formula) -> Formula {
     let span = left.span.to(right.span);
@@ -186,6 +210,7 @@ fn joined(left: Formula, operator: Rule, right: Formula) -> Formula {
         Rule::implies => Expression::Implies(left, right),
         Rule::or => Expression::Or(left, right),
         Rule::and => Expression::And(left, right),
+        Rule::xor => Expression::Not(Box::new(Formula { expression: Expression::Iff(left, right), span })),
         Rule::plus => Expression::Sum(left, right),
         Rule::minus => Expression::Difference(left, right),
         Rule::times => Expression::Product(left, right),
@@ -234,6 +259,9 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     };
     let expression = match pair.as_rule() {
         Rule::group => {
+            if let Some(hole) = hole(&pair) {
+                return Err(hole);
+            }
             let parts: Vec<_> = pair.into_inner().filter(|part| part.as_rule() == Rule::formula).collect();
             let mut parts = parts.into_iter().map(|part| formula(part.into_inner())).collect::<Result<Vec<_>, _>>()?;
             match parts.len() {
@@ -241,11 +269,17 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
                 _ => Expression::Past(Past::Since, parts),
             }
         }
+        Rule::among => among(pair)?,
         Rule::call => call(pair)?,
         Rule::held => {
             let (of, time) = (part(&pair, Rule::formula), part(&pair, Rule::duration));
             let (Some(of), Some(time)) = (of, time) else { return Err(missing(span)) };
             Expression::Held(Box::new(formula(of.into_inner())?), duration(&time)?)
+        }
+        Rule::real => {
+            let message = format!("`{text}` is a real number, and formulas have none");
+            let help = "programs with variables of type `REAL` are refused; compare others with whole numbers";
+            return Err(Diagnostic::new(Code::RequirementSyntax, span, message).help(help));
         }
         Rule::number if is_truth(text) => Expression::Truth(constant(&pair)? == 1),
         Rule::number => Expression::Number(constant(&pair)?),
@@ -273,12 +307,51 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     Ok(Formula { expression, span })
 }
 
+/// The error that nothing was put into a place of a pattern: `{1}`.
+fn hole(group: &Pair<'_, Rule>) -> Option<Diagnostic> {
+    let inside = group.as_str().strip_prefix('{')?.strip_suffix('}')?.trim();
+    let is_hole = !inside.is_empty() && inside.bytes().all(|byte| byte.is_ascii_digit());
+    is_hole.then(|| {
+        let message = format!("`{{{inside}}}` is a place of a pattern, and nothing is put into it");
+        let help = "write the formula itself there, or use the short form: `implication(a, b)`";
+        Diagnostic::new(Code::RequirementSyntax, span(group), message).help(help)
+    })
+}
+
+/// `exactly one of (a, b)`: the number of those that are true.
+fn among(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
+    let place = span(&pair);
+    let (mut comparison, mut sum) = (Comparison::Equal, None);
+    for piece in pair.into_inner() {
+        match piece.as_rule() {
+            Rule::at_most_one => comparison = Comparison::AtMost,
+            Rule::at_least_one => comparison = Comparison::AtLeast,
+            Rule::list_item => {
+                let one = formula(piece.into_inner())?;
+                sum = Some(match sum {
+                    None => one,
+                    Some(sum) => joined(sum, Rule::plus, one),
+                });
+            }
+            _ => {}
+        }
+    }
+    let one = Formula { expression: Expression::Number(1), span: place };
+    Ok(Expression::Compare(comparison, Box::new(sum.ok_or_else(|| missing(place))?), Box::new(one)))
+}
+
 /// `pre(f)`, `since(f, g)`
 fn call(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     let place = span(&pair);
     let mut parts = pair.into_inner();
     let Some(called) = parts.next() else { return Err(missing(place)) };
     let name = called.as_str();
+    if ["always", "never"].iter().any(|word| name.eq_ignore_ascii_case(word)) {
+        let message = format!("`{name}` speaks of all that follows");
+        let help =
+            format!("put parentheses around all of it, `{name} (a -> b)`, or write `AG (a) & b` if that is meant");
+        return Err(Diagnostic::new(Code::RequirementSyntax, span(&called), message).help(help));
+    }
     let Some(past) = Past::ALL.into_iter().find(|past| past.name().eq_ignore_ascii_case(name)) else {
         let names = Past::ALL.iter().map(|past| past.name()).chain(["held"]).chain(patterns::names());
         let message = format!("there is no operator `{name}`");
@@ -399,10 +472,12 @@ fn name(rule: Rule) -> Option<&'static str> {
         | Rule::name
         | Rule::group
         | Rule::path_group
+        | Rule::list_item
+        | Rule::among
         | Rule::number => "a formula",
-        Rule::and | Rule::implies | Rule::equal | Rule::plus => "an operator",
+        Rule::and | Rule::implies | Rule::equal | Rule::plus | Rule::path_until => "an operator",
+        Rule::close_brace => "`}`",
         Rule::until_operator => "`U` or `W`",
-        Rule::path_until => "`U`, `W` or `R`",
         Rule::close_group => "`)`",
         Rule::close_until => "`]`",
         Rule::line => "a line number",

@@ -9,6 +9,7 @@ use super::uses;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Name, Path, Unit, key};
+use crate::syntax::standard_address;
 
 /// The area of an address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,13 +70,24 @@ pub fn read(text: &str) -> Option<(Area, Option<Type>)> {
     numbers.then(|| (area, width.map(|width| Type::new(Kind::Bits, width))))
 }
 
+/// The error that an address is none.
+pub fn unreadable(address: &Name) -> Diagnostic {
+    let message = format!("`{}` is no address that can be read", address.text);
+    let help = match standard_address(&address.text) {
+        Some(standard) => {
+            format!("an address begins with `%`, with I for an input and Q for an output: write `{standard}`")
+        }
+        None => "an address is like `%IX0.0`, `%QW3` or `%MD12`".to_owned(),
+    };
+    Diagnostic::new(Code::AddressUnfit, address.span, message).help(help)
+}
+
 /// The address of a variable, if it fits the variable.
 pub fn fit(location: &Name, symbol: &Symbol, may_locate: bool) -> Result<Location, Diagnostic> {
     let unfit =
         |message: String, help: &str| Err(Diagnostic::new(Code::AddressUnfit, location.span, message).help(help));
     let Some((area, size)) = read(&location.text) else {
-        let message = format!("`{}` is no address that can be read", location.text);
-        return unfit(message, "an address is like `%IX0.0`, `%QW3` or `%MD12`");
+        return Err(unreadable(location));
     };
     if !may_locate {
         let message = format!("`{}` stands where no address may", location.text);

@@ -219,7 +219,9 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
         "Structured Text" => "only Instruction List is read: instead of `q := a AND b;` write `LD a`, `AND b`, `ST q`",
         _ => "only Instruction List is read",
     };
-    Diagnostic::new(Code::OtherLanguage, span, message).help(help)
+    Diagnostic::new(Code::OtherLanguage, span, message)
+        .help(help)
+        .help("many engineering tools convert a unit to IL; a unit that does not need this one is checked alone by `--pou NAME`")
 }
 
 /// In-out variables of the unit that nothing calls.

@@ -13,9 +13,12 @@ use super::scan::{MAX_DEPTH, scan};
 use super::written::{Name, Written, WrittenBinding, WrittenFunction, WrittenInput, WrittenOutput, WrittenRestriction};
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::logic::number;
+use crate::logic::priorities::{chained, connectives};
+use crate::logic::two_comparisons;
 use crate::source::{Source, Span};
 
 #[derive(Parser)]
+#[grammar = "../grammar/expression.pest"]
 #[grammar = "../grammar/sif.pest"]
 struct SifParser;
 
@@ -202,7 +205,14 @@ impl Reader {
         let is_chained = |p: &Pair<'_, Rule>| matches!(p.as_rule(), Rule::implies | Rule::iff);
         let chained = |pair: &Pair<'_, Rule>| pair.clone().into_inner().filter(is_chained).count();
         let all = std::iter::once(pair.clone()).chain(pair.clone().into_inner().flatten());
-        if let Some(chain) = all.filter(|p| p.as_rule() == Rule::formula).find(|p| chained(p) > MAX_DEPTH) {
+        let mut all = all.filter(|p| matches!(p.as_rule(), Rule::formula | Rule::list_item));
+        let second =
+            |p: Pair<'_, Rule>| chained!(p.into_inner(), Rule: equal | unequal; iff | implies | or | xor | and);
+        if let Some(second) = all.clone().find_map(second) {
+            self.diagnostics.push(two_comparisons(Code::SifSyntax, second));
+            return None;
+        }
+        if let Some(chain) = all.find(|p| chained(p) > MAX_DEPTH) {
             let message = format!("more than {MAX_DEPTH} implications follow each other");
             self.diagnostics.push(Diagnostic::new(Code::SifSyntax, span(&chain), message));
             return None;
@@ -211,8 +221,8 @@ impl Reader {
     }
 
     fn among(&mut self, pair: Pair<'_, Rule>) -> Option<Formula<Name>> {
-        let word = part(&pair, Rule::among_word)?;
-        let parts = pair.into_inner().filter(|part| part.as_rule() == Rule::formula);
+        let word = pair.clone().into_inner().next()?;
+        let parts = pair.into_inner().filter(|part| part.as_rule() == Rule::list_item);
         let parts: Option<Vec<_>> = parts.collect::<Vec<_>>().into_iter().map(|part| self.formula(part)).collect();
         Some(among(&word, parts?))
     }
@@ -276,13 +286,7 @@ fn like(rule: Rule) -> &'static str {
 
 static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
     let left = |rule| Op::infix(rule, Assoc::Left);
-    PrattParser::new()
-        .op(left(Rule::iff))
-        .op(Op::infix(Rule::implies, Assoc::Right))
-        .op(left(Rule::or))
-        .op(left(Rule::xor))
-        .op(left(Rule::and))
-        .op(Op::prefix(Rule::negations))
+    connectives!(Rule).op(left(Rule::equal) | left(Rule::unequal)).op(Op::prefix(Rule::negations))
 });
 
 /// A formula while it is put together: whether it stands in parentheses, and so takes no further operand.
@@ -305,7 +309,7 @@ fn joined((left, is_closed): Part, operator: Rule, right: Formula<Name>) -> Part
     let operator = match operator {
         Rule::and => Operator::And,
         Rule::or => Operator::Or,
-        Rule::xor => Operator::Xor,
+        Rule::xor | Rule::unequal => Operator::Xor,
         Rule::implies => Operator::Implies,
         _ => Operator::Iff,
     };
@@ -328,8 +332,8 @@ fn primary(pair: Pair<'_, Rule>) -> Formula<Name> {
             None => Formula::Constant(false),
         },
         Rule::among => {
-            let word = part(&pair, Rule::among_word);
-            let parts = pair.into_inner().filter(|part| part.as_rule() == Rule::formula);
+            let word = pair.clone().into_inner().next();
+            let parts = pair.into_inner().filter(|part| part.as_rule() == Rule::list_item);
             let parts = parts.map(|part| formula(part.into_inner())).collect();
             word.map_or(Formula::Constant(false), |word| among(&word, parts))
         }
@@ -339,9 +343,9 @@ fn primary(pair: Pair<'_, Rule>) -> Formula<Name> {
 
 /// One of these at most, at least, or both. At least one of one is that one.
 fn among(word: &Pair<'_, Rule>, mut parts: Vec<Formula<Name>>) -> Formula<Name> {
-    match word.clone().into_inner().next().map(|word| word.as_rule()) {
-        Some(Rule::at_most) => Formula::Gate(Operator::AtMostOne, parts),
-        Some(Rule::exactly) => Formula::Gate(Operator::ExactlyOne, parts),
+    match word.as_rule() {
+        Rule::at_most_one => Formula::Gate(Operator::AtMostOne, parts),
+        Rule::exactly_one => Formula::Gate(Operator::ExactlyOne, parts),
         _ if parts.len() == 1 => parts.remove(0),
         _ => Formula::Gate(Operator::Or, parts),
     }
@@ -389,10 +393,15 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::open => "`{`",
         Rule::close => "`}`",
         Rule::close_group => "`)`",
-        Rule::formula | Rule::group | Rule::among | Rule::truth | Rule::negations | Rule::body | Rule::spoken => {
-            "a formula"
-        }
-        Rule::and | Rule::or | Rule::xor | Rule::implies | Rule::iff => "an operator",
+        Rule::formula
+        | Rule::list_item
+        | Rule::group
+        | Rule::among
+        | Rule::truth
+        | Rule::negations
+        | Rule::body
+        | Rule::spoken => "a formula",
+        Rule::and | Rule::or | Rule::xor | Rule::implies | Rule::iff | Rule::equal | Rule::unequal => "an operator",
         Rule::never_word => "`never`",
         Rule::always_word => "`always`",
         Rule::at | Rule::at_word => "`at`",

@@ -38,7 +38,7 @@ impl fmt::Display for Stopped {
             Self::Plant(impossible) => impossible.fmt(f),
             Self::Failed(Failure::Scan(_)) => f.write_str("this scan never ends"),
             Self::Failed(Failure::Hazard(line, hazard)) => {
-                write!(f, "{hazard} in line {}: what a PLC does then is not known", line + 1)
+                write!(f, "{hazard} in line {} of the flat code: what a PLC does then is not known", line + 1)
             }
             Self::Failed(Failure::NotSafe(_)) => f.write_str("a place would get a second token"),
             Self::Disagreement(disagreement) => write!(f, "net and interpreter disagree: {disagreement}"),

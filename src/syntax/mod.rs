@@ -4,6 +4,7 @@
 pub mod ast;
 mod comments;
 mod consume;
+mod dialect;
 mod expected;
 mod nesting;
 mod parse;
@@ -11,6 +12,7 @@ mod plcopen;
 mod print;
 
 pub use comments::{Comments, comments, requirements_in_comments};
+pub use dialect::{standard_address, standard_operator};
 pub use parse::parse;
 
 /// The text with blanks instead of comments, of the same length.

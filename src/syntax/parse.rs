@@ -4,7 +4,7 @@ use pest::Parser;
 use pest_derive::Parser;
 
 use super::ast::Unit;
-use super::{comments, consume, expected, nesting, plcopen};
+use super::{comments, consume, dialect, expected, nesting, plcopen};
 use crate::diagnostic::{Code, Diagnostic, any_error};
 use crate::source::{Source, Span};
 
@@ -26,6 +26,9 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     }
     if let Some(too_deep) = nesting::too_deep(&text, 0) {
         return (Unit::default(), vec![too_deep]);
+    }
+    if let Some(other) = dialect::statement_list(&text) {
+        return (Unit::default(), vec![other]);
     }
     let mut diagnostics = Vec::new();
     let unit = match IlParser::parse(Rule::unit, &text) {

@@ -46,7 +46,7 @@ pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
     Answer {
         name: assertion.name.clone(),
         sentence: assertion.sentence.clone(),
-        words: Some(format!("Whenever control comes to line {}, this is so.", assertion.origin.line)),
+        words: Some(format!("Whenever control comes to source line {}, this is so.", assertion.origin.line)),
         tags: Vec::new(),
         formula: assertion.text.clone(),
         origin: Some(assertion.origin.clone()),
@@ -84,7 +84,7 @@ fn shown(view: &ScanView<'_>, formula: &Bound, line: usize, seen: &Seen) -> Resu
     }
     let words = system.program.text(system.program.code[line].instruction);
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    let text = format!("before line {} (`{words}`), `{}` was false", line + 1, formula.text(system));
+    let text = format!("before line {} of the flat code (`{words}`), `{}` was false", line + 1, formula.text(system));
     let notes = vec![Note { first: last, last, text }];
     Ok(Outcome::Violated(Witness { trace: Trace::Scans(trace), notes }, None))
 }

@@ -24,7 +24,11 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
             let notes = never.into_iter().map(|line| {
                 let instruction = program.text(program.code[line].instruction);
                 let words = instruction.split_whitespace().collect::<Vec<_>>().join(" ");
-                Note { first: 0, last: 0, text: format!("no scan ever comes to line {} (`{words}`)", line + 1) }
+                Note {
+                    first: 0,
+                    last: 0,
+                    text: format!("no scan ever comes to line {} of the flat code (`{words}`)", line + 1),
+                }
             });
             Outcome::Violated(Witness { trace, notes: notes.collect() }, None)
         }

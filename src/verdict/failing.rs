@@ -33,7 +33,7 @@ pub fn failing_scan(space: &ScanSpace<'_>, graph: &Graph, kind: impl Fn(&Failure
                     let code = &system.program.code[line];
                     let instruction = system.program.text(code.instruction);
                     let words = instruction.split_whitespace().collect::<Vec<_>>().join(" ");
-                    format!("{} in line {} (`{words}`)", event(hazard), line + 1)
+                    format!("{} in line {} of the flat code (`{words}`)", event(hazard), line + 1)
                 }
                 _ => "this scan never ends: it repeats a state".to_owned(),
             };

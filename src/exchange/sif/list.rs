@@ -8,16 +8,51 @@ use std::io::Cursor;
 use calamine::{Data, Reader as _, Xlsx};
 
 use super::plan_csv::separator;
+use crate::syntax::standard_address;
 
 /// What columns are called, in small letters.
-const HEADS: [(&str, &[&str]); 7] = [
+const HEADS: [(&str, &[&str]); 8] = [
     ("name", &["name", "signal", "tag", "symbol", "signal name", "tag name"]),
     ("direction", &["direction", "i/o", "io", "in/out", "kind", "type", "i/o type", "io type"]),
     ("description", &["description", "comment", "text", "meaning", "designation"]),
     ("address", &["address", "variable", "channel", "plc address", "plc variable"]),
     ("zone", &["zone", "area", "group"]),
     ("function", &["function", "sif", "safety function"]),
-    ("rest", &["rest", "normally", "normal", "rest value", "normal value"]),
+    (
+        "rest",
+        &["rest", "normally", "normal", "rest value", "normal value", "contact", "contact type", "nc/no", "no/nc"],
+    ),
+    ("data type", &["data type", "datatype", "signal type"]),
+];
+
+/// Kinds of signals, and types of data, that are not Boolean.
+const ANALOGUE: [&str; 26] = [
+    "ai",
+    "ao",
+    "analog",
+    "analogue",
+    "analog input",
+    "analogue input",
+    "analog output",
+    "analogue output",
+    "analog in",
+    "analog out",
+    "sint",
+    "int",
+    "dint",
+    "lint",
+    "usint",
+    "uint",
+    "udint",
+    "ulint",
+    "byte",
+    "word",
+    "dword",
+    "lword",
+    "real",
+    "lreal",
+    "time",
+    "string",
 ];
 
 /// The rows of a text with values between commas, semicolons or tabs.
@@ -124,7 +159,7 @@ pub fn frame(title: &str, rows: &[Vec<String>]) -> Result<String, Vec<String>> {
         let message = "no row is a head with a column `name`, and one `direction` or `address`";
         return Err(vec![message.to_owned()]);
     };
-    let columns: [Option<usize>; 7] = std::array::from_fn(|kind| column(&rows[head], kind));
+    let columns: [Option<usize>; 8] = std::array::from_fn(|kind| column(&rows[head], kind));
     let mut frame = Frame::default();
     let mut errors = Vec::new();
     for (number, row) in rows.iter().enumerate().skip(head + 1) {
@@ -145,7 +180,14 @@ fn column(row: &[String], kind: usize) -> Option<usize> {
 
 impl Frame {
     fn add<'c>(&mut self, cell: &impl Fn(usize) -> &'c str) -> Result<(), String> {
-        let [said, direction, description, address, zone, function, rest] = std::array::from_fn(cell);
+        let [said, direction, description, address, zone, function, rest, data] = std::array::from_fn(cell);
+        let standard = standard_address(address).filter(|_| is_address(address));
+        let is_wide = standard.as_ref().is_some_and(|address| address[2..].starts_with(['B', 'W', 'D']));
+        if is_wide || [direction, data].iter().any(|kind| ANALOGUE.contains(&kind.to_lowercase().as_str())) {
+            let message = format!("`{said}` is not Boolean, and safety functions are");
+            return Err(format!("{message}: leave it out, or give the signal that the program makes of it"));
+        }
+        let address = standard.as_deref().unwrap_or(address);
         let is_output = output(direction, address)
             .ok_or_else(|| format!("nothing says whether `{said}` is an input or an output"))?;
         let name = identifier(said);
@@ -163,7 +205,9 @@ impl Frame {
             address if address.starts_with('%') => format!(" at {address}"),
             variable => format!(" is {variable}"),
         };
-        if !is_output && ["true", "1", "yes", "on"].contains(&rest.to_lowercase().as_str()) {
+        let is_at_rest = at_rest(rest)
+            .ok_or_else(|| format!("`{rest}` does not say what `{said}` is at rest: write NC or TRUE, NO or FALSE"))?;
+        if !is_output && is_at_rest {
             declaration += " normally TRUE";
         }
         declaration += ";";
@@ -208,6 +252,20 @@ impl Frame {
             );
         }
         out + if open.is_empty() { "" } else { "}\n" }
+    }
+}
+
+/// Whether a text is an address and no variable: `%IX0.0`, `%I0.0`, `I0.0`, and `E0.0` and `A4.0` of Siemens.
+fn is_address(text: &str) -> bool {
+    text.starts_with('%') || text.contains('.') || text.get(1..2).is_some_and(|size| size.eq_ignore_ascii_case("W"))
+}
+
+/// Value at rest of a contact; a normally closed one is TRUE.
+fn at_rest(text: &str) -> Option<bool> {
+    match text.to_lowercase().as_str() {
+        "true" | "1" | "yes" | "on" | "nc" | "n.c." | "n/c" | "normally closed" | "closed" => Some(true),
+        "" | "-" | "false" | "0" | "off" | "no" | "n.o." | "n/o" | "normally open" | "open" => Some(false),
+        _ => None,
     }
 }
 

@@ -96,7 +96,7 @@ fn inputs(
 /// The input of type `BOOL` of this name.
 fn input(name: &str, span: Span, system: &System) -> Result<VarId, Diagnostic> {
     let program = &system.program;
-    let Some(input) = program.find(name) else {
+    let Some(input) = program.named(name) else {
         let names = program.with_role(Role::Input).map(|id| program.variable(id).name.as_str());
         let message = format!("the program `{}` has no input `{name}`", program.name);
         return Err(Diagnostic::new(Code::RequirementNameUnknown, span, message).suggest(name, names));

@@ -50,7 +50,7 @@ impl Vocabulary for InProgram<'_> {
 
     fn enumerated(&self, value: &str, variable: &str) -> Option<i128> {
         let program = &self.system.program;
-        let variable = program.find(variable).filter(|_| program.find(value).is_none())?;
+        let variable = program.named(variable).filter(|_| program.named(value).is_none())?;
         program.enumerated(variable, value)
     }
 
@@ -151,7 +151,7 @@ impl InProgram<'_> {
     /// The variable of a name.
     fn find(&self, name: &Name<'_>) -> Result<VarId, Diagnostic> {
         let program = &self.system.program;
-        program.find(name.text).ok_or_else(|| {
+        program.named(name.text).ok_or_else(|| {
             let message = format!("the program `{}` has no variable `{}`", program.name, name.text);
             name.unknown(message, program.declared().map(|id| program.variable(id).name.as_str()))
         })

@@ -5,9 +5,10 @@ use std::sync::LazyLock;
 use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 
-use super::{Rule, formula, joined, missing, part, primary, span};
+use super::priorities::{comparisons, connectives};
+use super::{Rule, formula, hole, joined, missing, part, primary, span, unambiguous};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::logic::formula::{Expression, Formula, Past};
+use crate::logic::formula::{Expression, Formula, Past, Quantifier, Temporal};
 use crate::logic::ltl::Path;
 use crate::source::Span;
 
@@ -26,27 +27,55 @@ pub(super) fn whole(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     }
 }
 
+/// A pair of the rule `path` that no `LTL` stands before: `G p` is `AG p`, as are F, X, U and W of formulas about one state with `A`
+/// before them; anything else is of LTL.
+///
+/// # Errors
+/// A part that would be about the first scan alone, beside one about later scans: `G a & b`.
+pub(super) fn bare(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
+    let span = span(&pair);
+    let path = path(pair.into_inner())?.path;
+    if let Path::And(f, g) | Path::Or(f, g) | Path::Implies(f, g) | Path::Iff(f, g) = &path
+        && matches!((&**f, &**g), (Path::State(_), _) | (_, Path::State(_)))
+    {
+        let message = "one side of this is about the first scan only, the other about later ones";
+        let help = "put parentheses around all that is asked of every scan, like `G (a -> F b)`; \
+                    write `LTL` before it if it is meant as it stands";
+        return Err(Diagnostic::new(Code::RequirementSyntax, span, message).help(help));
+    }
+    let expression = of_states(&path).unwrap_or_else(|| Expression::Ltl(Box::new(path)));
+    Ok(Formula { expression, span })
+}
+
+/// The formula of CTL that says the same as one operator of LTL and formulas about one state.
+fn of_states(path: &Path<Formula>) -> Option<Expression> {
+    let state = |path: &Path<Formula>| match path {
+        Path::State(formula) => Some(Box::new(formula.clone())),
+        _ => None,
+    };
+    let all = |temporal, f| Some(Expression::Temporal(Quantifier::All, temporal, state(f)?));
+    let until = |weak, hold, release| {
+        let (hold, release) = (state(hold)?, state(release)?);
+        Some(Expression::Until { quantifier: Quantifier::All, weak, hold, release })
+    };
+    match path {
+        Path::Next(f) => all(Temporal::Next, f),
+        Path::Finally(f) => all(Temporal::Finally, f),
+        Path::Globally(f) => all(Temporal::Globally, f),
+        Path::Until(f, g) => until(false, f, g),
+        Path::WeakUntil(f, g) => until(true, f, g),
+        _ => None,
+    }
+}
+
 /// The operators of formulas about one state bind as they do everywhere.
 static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
-    let left = |rule| Op::infix(rule, Assoc::Left);
-    PrattParser::new()
-        .op(left(Rule::iff))
-        .op(Op::infix(Rule::implies, Assoc::Right))
-        .op(left(Rule::or))
-        .op(left(Rule::and))
-        .op(Op::infix(Rule::path_until, Assoc::Right))
-        .op(left(Rule::equal)
-            | left(Rule::unequal)
-            | left(Rule::less)
-            | left(Rule::at_most)
-            | left(Rule::greater)
-            | left(Rule::at_least))
-        .op(left(Rule::plus) | left(Rule::minus))
-        .op(left(Rule::times))
+    comparisons!(connectives!(Rule).op(Op::infix(Rule::path_until, Assoc::Right)), Rule)
         .op(Op::prefix(Rule::not) | Op::prefix(Rule::path_prefix) | Op::prefix(Rule::temporal))
 });
 
 fn path(pairs: Pairs<'_, Rule>) -> Result<Part, Diagnostic> {
+    unambiguous(pairs.clone())?;
     PRATT
         .map_primary(|pair| match pair.as_rule() {
             Rule::path_group => group(&pair),
@@ -59,6 +88,9 @@ fn path(pairs: Pairs<'_, Rule>) -> Result<Part, Diagnostic> {
 
 /// `(f)`, `(f since g)`
 fn group(pair: &Pair<'_, Rule>) -> Result<Part, Diagnostic> {
+    if let Some(hole) = hole(pair) {
+        return Err(hole);
+    }
     let whole = span(pair);
     let Some(inner) = part(pair, Rule::path) else { return Err(missing(whole)) };
     let inner = path(inner.into_inner())?;
@@ -114,6 +146,7 @@ fn infixed(left: Part, operator: &Pair<'_, Rule>, right: Part) -> Result<Part, D
         (Rule::implies, _) => Path::Implies(left, right),
         (Rule::or, _) => Path::Or(left, right),
         (Rule::and, _) => Path::And(left, right),
+        (Rule::xor, _) => Path::Not(Box::new(Path::Iff(left, right))),
         _ => {
             let message = "a formula about a path is compared with or counted as a number";
             let help =

@@ -4,7 +4,7 @@
 
 use pest::iterators::Pair;
 
-use super::{Rule, checked_formula, duration, one_line, span};
+use super::{Rule, checked_formula, duration, one_line, part, span};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Quantifier, Temporal};
 use crate::source::Span;
@@ -144,11 +144,16 @@ pub(super) fn body(pair: Pair<'_, Rule>) -> Result<(Body, Option<String>), Diagn
         return Err(Diagnostic::new(Code::RequirementSyntax, place, "there is no formula"));
     };
     let (found, parts) = match inner.as_rule() {
+        Rule::throughout => {
+            let pattern = if part(&inner, Rule::never_word).is_some() { Forbidden } else { Invariant };
+            (PATTERNS.iter().find(|(known, ..)| *known == pattern), parts(inner)?)
+        }
         Rule::short => {
-            let name = text.split('(').next().unwrap_or_default().trim().replace('-', "_");
-            let known = PATTERNS.iter().find(|(_, _, short, _)| {
-                short.split('(').next().is_some_and(|short| short.eq_ignore_ascii_case(&name))
-            });
+            let name = text.split('(').next().unwrap_or_default().trim().replace('-', "_").to_ascii_lowercase();
+            let name = name.strip_prefix("pattern_").unwrap_or(&name);
+            let known = PATTERNS
+                .iter()
+                .find(|(_, _, short, _)| short.split('(').next().is_some_and(|short| short.eq_ignore_ascii_case(name)));
             (known, parts(inner)?)
         }
         Rule::spoken => {
@@ -158,7 +163,14 @@ pub(super) fn body(pair: Pair<'_, Rule>) -> Result<(Body, Option<String>), Diagn
             let rule = said.as_rule();
             (PATTERNS.iter().find(|(_, known, ..)| *known == rule), parts(said)?)
         }
-        _ => return Ok((Body::Formula(checked_formula(inner)?), None)),
+        _ => {
+            if let Some(arrow) = inner.clone().into_inner().find(|part| part.as_str() == "-->") {
+                let message = "`-->` is an implication in PLCverif and \"leads to\" in UPPAAL";
+                let help = "write `AG (a -> b)` for the one, and `AG (a -> AF b)` for the other";
+                return Err(Diagnostic::new(Code::RequirementSyntax, span(&arrow), message).help(help));
+            }
+            return Ok((Body::Formula(checked_formula(inner)?), None));
+        }
     };
     let Some(&(pattern, _, short, words)) = found else {
         return Err(Diagnostic::new(Code::RequirementSyntax, place, "there is no such pattern"));
@@ -176,14 +188,39 @@ fn parts(pair: Pair<'_, Rule>) -> Result<Vec<Part>, Diagnostic> {
     for piece in pair.into_inner() {
         let piece = if piece.as_rule() == Rule::argument { piece.into_inner().next() } else { Some(piece) };
         let Some(piece) = piece else { continue };
-        let text = one_line(piece.as_str());
         match piece.as_rule() {
-            Rule::formula => parts.push(Part::Formula(checked_formula(piece)?, text)),
-            Rule::duration => parts.push(Part::Duration(duration(&piece)?, text)),
+            Rule::formula | Rule::list_item => {
+                let text = one_line(set_off(&piece));
+                parts.push(Part::Formula(checked_formula(piece)?, text));
+            }
+            Rule::duration => {
+                let text = one_line(piece.as_str());
+                parts.push(Part::Duration(duration(&piece)?, text));
+            }
+            // "… is false": it stands behind what it is said of.
+            Rule::false_word => {
+                if let Some(Part::Formula(formula, text)) = parts.pop() {
+                    let (expression, span) = (Expression::Not(Box::new(formula.clone())), formula.span);
+                    let is_name = matches!(formula.expression, Expression::Name(_));
+                    let text = if is_name { format!("!{text}") } else { format!("!({text})") };
+                    parts.push(Part::Formula(Formula { expression, span }, text));
+                }
+            }
             _ => {}
         }
     }
     Ok(parts)
+}
+
+/// The text of a part, without the braces around all of it.
+fn set_off<'i>(part: &Pair<'i, Rule>) -> &'i str {
+    let mut inner = part.clone().into_inner();
+    match (inner.next(), inner.next()) {
+        (Some(group), None) if group.as_rule() == Rule::group && group.as_str().starts_with('{') => {
+            group.clone().into_inner().next().map_or(group.as_str(), |inside| set_off(&inside))
+        }
+        _ => part.as_str(),
+    }
 }
 
 fn in_words(template: &str, parts: &[Part]) -> String {

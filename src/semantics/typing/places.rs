@@ -2,12 +2,14 @@
 
 use super::Typing;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::semantics::address;
 use crate::semantics::program::{Index, Operand, Place, Root, Step, TypeId};
 use crate::semantics::shape::{Scalar, Shape};
 use crate::semantics::symbols::Section;
 use crate::semantics::types::Kind;
 use crate::source::Span;
 use crate::syntax::ast::{self, Literal, Name, Part, Path, Subscript};
+use crate::syntax::standard_address;
 
 /// What a path is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,9 +135,12 @@ impl Typing<'_> {
 
     fn unknown_root(&mut self, path: &Path) {
         if path.root.text.starts_with('%') {
-            let message = format!("`{}` is no address that can be read", path.root.text);
-            let help = "an address is like `%IX0.0`, `%QW3` or `%MD12`";
-            self.diagnostics.push(Diagnostic::new(Code::AddressUnfit, path.root.span, message).help(help));
+            self.diagnostics.push(address::unreadable(&path.root));
+            return;
+        }
+        if !path.parts.is_empty() && standard_address(&path.to_string()).is_some() {
+            let whole = Name { text: path.to_string(), span: path.span };
+            self.diagnostics.push(address::unreadable(&whole));
             return;
         }
         self.unknown.entry(path.root.key()).or_insert((path.root.clone(), 0)).1 += 1;

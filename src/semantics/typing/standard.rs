@@ -11,6 +11,7 @@ use crate::semantics::shape::Scalar;
 use crate::semantics::types::Type;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Name, Verb, key};
+use crate::syntax::standard_operator;
 
 /// A standard function: what it does, and the names of its inputs. The last name is repeated with a number behind it if
 /// `many`.
@@ -254,6 +255,11 @@ impl Typing<'_> {
         let own = context.project.unit.pous.iter().map(|pou| pou.name.text.as_str());
         let message = format!("`{}` is neither an operator nor a function that is known", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownOperator, name.span, message);
+        if let Some(standard) = standard_operator(&name.text) {
+            let help = format!("`{}` is Siemens Statement List; in Instruction List it is `{standard}`", name.text);
+            self.diagnostics.push(diagnostic.help(help));
+            return;
+        }
         let position = self.unknown_words;
         self.unknown_words += 1;
         self.diagnostics.push(diagnostic.suggest_at(position, &name.text, WORDS.iter().copied().chain(own)));

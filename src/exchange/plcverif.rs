@@ -1,0 +1,153 @@
+//! Properties of PLCverif in JSON, as its benchmarks have them: patterns with their parameters.
+//!
+//! ```json
+//! { "id": "press", "properties_to_be_validated": [ { "property_description": "…", "property": {
+//!     "job_req": "pattern", "pattern_id": "pattern-implication", "pattern_params": { "1": "instance.a", "2": "instance.b" },
+//!     "pattern_description": "If {1} is true at the end of the PLC cycle, then {2} should always be true at the end of the same cycle."
+//! } } ] }
+//! ```
+
+use serde_json::{Map, Value};
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+/// A property of a file, before it is read as a requirement.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Property {
+    /// Its name: that of the task and its position, counted from 1.
+    pub name: String,
+    /// What it says in the words of its author.
+    pub sentence: Option<String>,
+    /// What it asks for.
+    pub asked: Asked,
+}
+
+/// What a property asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// A pattern: its short form, and its sentence with the parameters put in, which may be any prose.
+    Pattern {
+        /// `pattern-implication({a}, {b})`
+        short: String,
+        /// `If {a} is true …`
+        described: Option<String>,
+    },
+    /// That the assertions of the program hold.
+    Assertions,
+}
+
+/// The properties of a file.
+///
+/// # Errors
+/// The text is no JSON, or has no properties, or one that is none.
+pub fn properties(text: &str) -> Result<Vec<Property>, Diagnostic> {
+    let refused = |span, message: String| {
+        let help = "properties are like `{ \"property\": { \"job_req\": \"pattern\", \"pattern_id\": \"pattern-invariant\", \
+                    \"pattern_params\": { \"1\": \"a\" } } }`";
+        Diagnostic::new(Code::RequirementSyntax, span, message).help(help)
+    };
+    let document: Value = serde_json::from_str(text).map_err(|error| {
+        let before: usize = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
+        let at = (before + error.column().saturating_sub(1)).min(text.len());
+        let at = (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or_default();
+        let message = error.to_string();
+        let message = message.split(" at line ").next().unwrap_or_default();
+        refused(Span::new(at, at), format!("this is no JSON: {message}"))
+    })?;
+    let task = document.get("id").and_then(Value::as_str).map_or("p".to_owned(), |id| format!("{}.", word(id)));
+    let listed = document.get("properties_to_be_validated").unwrap_or(&document);
+    let list: Vec<&Value> = match listed {
+        Value::Array(list) => list.iter().collect(),
+        one => vec![one],
+    };
+    let property = |(position, value): (usize, &Value)| -> Result<Property, Diagnostic> {
+        let name = format!("{task}{}", position + 1);
+        let sentence = value.get("property_description").and_then(Value::as_str).map(one_line);
+        let asked = value.get("property").unwrap_or(value).as_object().and_then(asked).ok_or_else(|| {
+            refused(Span::default(), format!("property {} of this file is none that can be read", position + 1))
+        })?;
+        Ok(Property { name, sentence: sentence.filter(|sentence| !sentence.is_empty()), asked })
+    };
+    list.into_iter().enumerate().map(property).collect()
+}
+
+fn asked(property: &Map<String, Value>) -> Option<Asked> {
+    match property.get("job_req")?.as_str()? {
+        "assertion" => Some(Asked::Assertions),
+        "pattern" => {
+            let pattern = property.get("pattern_id")?.as_str()?;
+            // Places are numbered, by some authors from 0 and by others from 1.
+            let given = property.get("pattern_params")?.as_object()?;
+            let mut parameters: Vec<(u32, &str)> = Vec::new();
+            for (place, parameter) in given {
+                // A brace would end the place it is put into.
+                let parameter = parameter.as_str().filter(|parameter| !parameter.contains(['{', '}']))?;
+                parameters.push((place.parse().ok()?, parameter));
+            }
+            parameters.sort_unstable();
+            let all: Vec<String> = parameters.iter().map(|(_, parameter)| set_off(parameter)).collect();
+            let described = property.get("pattern_description").and_then(Value::as_str).map(one_line);
+            let described = described.map(|sentence| {
+                parameters.iter().fold(sentence, |sentence, (place, parameter)| {
+                    sentence.replace(&format!("{{{place}}}"), &set_off(parameter))
+                })
+            });
+            Some(Asked::Pattern { short: format!("{}({})", word(pattern), all.join(", ")), described })
+        }
+        _ => None,
+    }
+}
+
+/// A parameter in braces, so that nothing in it reaches beyond it; a duration stands without.
+fn set_off(parameter: &str) -> String {
+    let text = one_line(parameter);
+    let is_duration = text.starts_with("T#") || text.ends_with('s') && text.starts_with(|c: char| c.is_ascii_digit());
+    if is_duration { text } else { format!("{{{text}}}") }
+}
+
+fn word(text: &str) -> String {
+    text.chars().filter(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_')).collect()
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace(char::is_control, "")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_and_assertions_are_read() {
+        let text = r#"{ "id": "v1 E", "properties_to_be_validated": [
+            { "property_description": "all of\nthem", "property": { "job_req": "assertion" } },
+            { "property": { "job_req": "pattern", "pattern_id": "pattern-implication", "pattern_params": { "1": "b", "0": "a = 1" },
+                "pattern_description": "If {0} is true, {1}." } } ] }"#;
+        let found = properties(text).unwrap_or_default();
+        assert_eq!(found[0].sentence.as_deref(), Some("all of them"));
+        assert_eq!(found[0].asked, Asked::Assertions);
+        let described = Some("If {a = 1} is true, {b}.".to_owned());
+        assert_eq!(found[1].asked, Asked::Pattern { short: "pattern-implication({a = 1}, {b})".to_owned(), described });
+        assert_eq!(found[1].name, "v1E.2");
+    }
+
+    const BRACES: &str =
+        r#"{ "job_req": "pattern", "pattern_id": "pattern-implication", "pattern_params": { "1": "a}, {b" } }"#;
+
+    #[test]
+    fn what_is_none_is_refused() {
+        for text in [
+            "",
+            "{",
+            "[1]",
+            "{}",
+            "{\"job_req\": \"pattern\"}",
+            "{\"job_req\": \"magic\"}",
+            BRACES,
+            "[{\"a\": \u{e9}}]",
+        ] {
+            assert!(properties(text).is_err(), "{text}");
+        }
+    }
+}
