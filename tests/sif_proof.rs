@@ -8,6 +8,7 @@ use petril::flat::{FlatProgram, Hazard, Tolerated};
 use petril::sif::Specification;
 use petril::sif::proof::{By, Confirmed, Failure, Form, Options, Outcome, Proof, Subject, prove};
 use petril::source::Source;
+use petril::verdict::Verdict;
 
 const F1: &str = include_str!("../examples/beam-interlock.sif");
 
@@ -202,13 +203,20 @@ fn errors_are_told() {
     let told = proof_with(&text, &counting, Tolerated::default(), &few);
     assert!(matches!(told.answers[0].outcome, Outcome::Proved { .. }));
     assert!(told.failures.is_empty() && told.unknown_failures.len() == 1, "{told:#?}");
+    let nothing_of_failures = "of scans that fail, and of what comes after them, nothing is claimed";
+    assert!(told.assumptions.iter().any(|assumed| assumed == nothing_of_failures), "{told:#?}");
+    assert_eq!(told.verdict(), Verdict::Unknown);
     let wrapping = Tolerated { overflow: true, division_by_zero: false };
-    assert!(proof_with(&text, &counting, wrapping, &few).unknown_failures.is_empty());
+    let told = proof_with(&text, &counting, wrapping, &few);
+    assert!(told.unknown_failures.is_empty() && !told.assumptions.iter().any(|it| it == nothing_of_failures));
+    assert_eq!(told.verdict(), Verdict::Holds);
     // A division by the number of inputs that are TRUE.
     let dividing = "LD a\nBOOL_TO_INT\nST n\nLD b\nBOOL_TO_INT\nADD n\nST n\nLD 6\nDIV n\nGT 5\nNOT\nST y";
     let told = proof(&text, &program("a, b, c", "y", more, dividing));
     let (failure, scans) = &told.failures[0];
     assert!(matches!(failure, Failure::Hazard(_, Hazard::DivisionByZero)));
+    assert!(told.assumptions.iter().any(|assumed| assumed == nothing_of_failures), "{told:#?}");
+    assert_eq!(told.verdict(), Verdict::Violated);
     assert_eq!(scans.len(), 1);
     assert_eq!(scans[0].given.inputs.iter().map(|(_, value)| *value).collect::<Vec<_>>(), [0, 0, 0]);
     // 6 / 1 > 5, 6 / 2 is not: but for that error it is proved.
@@ -232,93 +240,6 @@ fn code_with_jumps_blocks_and_numbers_is_proved() {
     assert_eq!(refuted(&proof(&function("", "y = a;"), &edge)), ["100", "100"]);
 }
 
-/// The only outcome is unknown, for a reason that says this.
-fn unknown(proof: &Proof, reason: &str) {
-    let [answer] = proof.answers.as_slice() else { panic!("{proof:#?}") };
-    assert!(matches!(&answer.outcome, Outcome::Unknown(why) if why.contains(reason)), "{proof:#?}");
-}
-
-/// `n` counts scans up to a hundred, where it stays. What is so at 300 is never so, which induction over a few scans does not see.
-const COUNTING: &str = "LD n\nEQ 100\nJMPC there\nLD n\nADD 1\nST n\nthere: ";
-
-/// Of 101 values of `n`, a limit of 100 scans of 8 readings each sees 13: nothing is proved of the others, and nothing wrong.
-#[test]
-fn a_part_of_the_states_proves_nothing() {
-    let text = function("", "y = a & b;");
-    let with = |body: &str| program("a, b, c", "y", "VAR n : INT; END_VAR", &format!("{COUNTING}{body}"));
-    let told = |program: &FlatProgram, tries: u64| {
-        proof_with(&text, program, Tolerated::default(), &Options { scans: 2, tries, ..Options::default() })
-    };
-    let right = with("LD n\nEQ 300\nOR(\nLD a\nAND b\n)\nST y");
-    unknown(&told(&right, 100), "induction over 2 scans does not exclude longer ones");
-    unknown(&told(&right, 101 * 8 - 1), "induction over 2 scans does not exclude longer ones");
-    assert_eq!(proved(&told(&right, 101 * 8)), (By::EveryScan, None));
-    // Wrong as soon as `n` is 100, in the 100th scan.
-    let wrong = with("LD n\nEQ 100\nOR(\nLD a\nAND b\n)\nST y");
-    unknown(&told(&wrong, 100), "induction over 2 scans does not exclude longer ones");
-    assert_eq!(refuted(&told(&wrong, 101 * 8)).len(), 100);
-}
-
-/// An error that comes in the 100th scan is neither met nor excluded by what a part of the states shows.
-#[test]
-fn a_part_of_the_states_excludes_no_error() {
-    let text = function("", "y = a & b;");
-    let more = "VAR n, k : INT; END_VAR";
-    let with = |bad: &str| {
-        let body = format!("{COUNTING}LD 100\nDIV(\nLD n\nSUB {bad}\n)\nST k\nLD a\nAND b\nST y");
-        program("a, b, c", "y", more, &body)
-    };
-    let told = |program: &FlatProgram, tries: u64| {
-        let tolerated = Tolerated { overflow: true, division_by_zero: false };
-        proof_with(&text, program, tolerated, &Options { scans: 2, tries, ..Options::default() })
-    };
-    for (bad, tries) in [("300", 100), ("300", 101 * 8 - 1), ("100", 100)] {
-        let told = told(&with(bad), tries);
-        let [(Some(Failure::Hazard(_, Hazard::DivisionByZero)), _)] = told.unknown_failures.as_slice() else {
-            panic!("{bad}, {tries}: {told:#?}")
-        };
-        assert!(told.failures.is_empty(), "{told:#?}");
-    }
-    let never = told(&with("300"), 101 * 8);
-    assert!(never.failures.is_empty() && never.unknown_failures.is_empty(), "{never:#?}");
-    let sometimes = told(&with("100"), 101 * 8);
-    assert!(matches!(sometimes.failures.as_slice(), [(_, scans)] if scans.len() == 100), "{sometimes:#?}");
-    assert!(sometimes.unknown_failures.is_empty(), "{sometimes:#?}");
-}
-
-/// The interpreter confirms a proof only if it came to the end of the scans: 2 states with 8 readings each, 16 scans. It has a
-/// sixteenth of the tries for this.
-#[test]
-fn a_part_of_the_states_confirms_nothing() {
-    let confirmed = |text: &str, program: &FlatProgram, tries: u64| {
-        proved(&proof_with(text, program, Tolerated::default(), &Options { tries, ..Options::default() }))
-    };
-    let latched = function(" latched until c", "y = a & b;");
-    let latch = program("a, b, c", "y", "", "LD c\nR y\nLD a\nAND b\nS y");
-    let every = Some(Confirmed::EveryScan { states: 2, scans: 16 });
-    assert_eq!(confirmed(&latched, &latch, 16 * 16), (By::Induction(1), every));
-    assert_eq!(confirmed(&latched, &latch, 16 * 15), (By::Induction(1), None));
-    let plain = program("a, b, c", "y", "", "LD a\nAND b\nST y");
-    let text = function("", "y = a & b;");
-    let every = Some(Confirmed::EveryScan { states: 1, scans: 8 });
-    assert_eq!(confirmed(&text, &plain, 16 * 8), (By::AnyState, every));
-    assert_eq!(confirmed(&text, &plain, 16 * 7), (By::AnyState, Some(Confirmed::Diagrams)));
-}
-
-/// A search that is stopped at once tells nothing, with gates and without.
-#[test]
-fn a_stopped_search_proves_nothing() {
-    let stopped = Options { stop: std::sync::Arc::new(|| true), ..Options::default() };
-    let text = function(" latched until c", "y = a & b;");
-    let latch = program("a, b, c", "y", "", "LD c\nR y\nLD a\nAND b\nS y");
-    let told = proof_with(&text, &latch, Tolerated::default(), &stopped);
-    unknown(&told, "gave up on runs of 1 scans");
-    let looping = program("a, b, c", "y", "", &format!("LD FALSE\nback: JMPC back\n{}", "LD c\nR y\nLD a\nAND b\nS y"));
-    let told = proof_with(&text, &looping, Tolerated::default(), &stopped);
-    unknown(&told, "not all scans were tried: the search was stopped");
-    assert!(matches!(told.unknown_failures.as_slice(), [(None, why)] if why.contains("stopped")), "{told:#?}");
-}
-
 /// A loop has no gates; the interpreter tries everything.
 #[test]
 fn loops_are_explored() {
@@ -329,15 +250,6 @@ fn loops_are_explored() {
     assert_eq!(proved(&proof(&text, &program("a, b, c", "y", head, body))), (By::EveryScan, None));
     let two = body.replace("LT 3", "LT 2");
     assert_eq!(refuted(&proof(&text, &program("a, b, c", "y", head, &two))), ["110"]);
-    // Eight scans are all there are from the one state that is carried; seven of them show nothing of the last.
-    let some = |body: &str, tries: u64| {
-        let options = Options { tries, ..Options::default() };
-        proof_with(&text, &program("a, b, c", "y", head, body), Tolerated::default(), &options)
-    };
-    assert_eq!(proved(&some(body, 8)), (By::EveryScan, None));
-    let seven = some(body, 7);
-    unknown(&seven, "not all scans were tried: the limit of 7 scans was reached");
-    assert!(matches!(seven.unknown_failures.as_slice(), [(None, _)]), "{seven:#?}");
     // A scan that never ends.
     let endless = "stay: LD a\nAND b\nJMPC stay\nLD FALSE\nST y";
     let told = proof(&text, &program("a, b, c", "y", "", endless));
