@@ -179,3 +179,31 @@ END_PROGRAM";
     assert_eq!(checked(false), told(&fails));
     assert_eq!(checked(true), told(&[("scan-ends", "holds"), ("assumptions", "violated")]));
 }
+
+/// The check of assumptions by hand: they leave inputs, none for the first scan, or none that is known of yet.
+#[test]
+fn assumptions_are_checked() {
+    let text = "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD i\nST q\nEND_PROGRAM";
+    let system = random_program::system(support::program(text), None);
+    let checked = |assumed: &str, calls: usize| {
+        let options = Options { assumptions: vec![assumption(assumed, &system)], ..Options::default() };
+        let mut left = calls;
+        let report = check(&system, &[], &options, &mut |_| {
+            let is_over = left == 0;
+            left = left.saturating_sub(1);
+            is_over.then(|| "the time is up".to_owned())
+        });
+        let check = report.checks.iter().find(|check| check.name == "assumptions").unwrap();
+        match &check.outcome {
+            Outcome::Unknown(reason) => format!("unknown: {reason}"),
+            outcome => outcome.verdict().word().to_owned(),
+        }
+    };
+    assert_eq!(checked("!i", 100), "holds");
+    assert_eq!(checked("pre(q) -> i", 100), "holds");
+    let nothing = "unknown: the assumptions allow no inputs for the first scan, so nothing was explored";
+    assert_eq!(checked("i & !i", 100), nothing);
+    // Both first scans are found, and what comes after them is not.
+    assert_eq!(checked("!pre(q)", 0), "unknown: the time is up; the states explored are no dead ends");
+    assert_eq!(checked("!pre(q)", 100), "violated");
+}
