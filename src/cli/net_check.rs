@@ -7,7 +7,7 @@ use petril::diagnostic::Diagnostic;
 use petril::exchange::mcc::{self, Query};
 use petril::exchange::tapaal;
 use petril::explore::engine::Options;
-use petril::logic::{Nodes, bind_in_net, parse_formula};
+use petril::logic::{Nodes, View, bind_in_net, parse_formula};
 use petril::net::{Located, PlaceId, TransitionId};
 use petril::source::Source;
 use petril::verdict::{Means, Question, Reply, Run, judge_aloud};
@@ -17,13 +17,14 @@ use super::args::{NetCheck, TraceForm};
 use super::console::Console;
 use super::net_explore::threads;
 use super::progress::Watcher;
-use super::{Failure, Outcome, SUCCESS, input, net_run};
+use super::{Failure, Outcome, SUCCESS, guard, input, net_run};
 
 pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let (located, _) = input::net(&arguments.on.model, console)?;
     let (names, questions) = questions(arguments, &located, console)?;
     let net = &located.net;
     let watcher = Watcher::new(&arguments.on.limits)?;
+    guard::phase("answering questions about the net");
     let options = Options { budget: arguments.on.limits.budget(), threads: threads(&arguments.on.limits), keep: true };
     let mut printed = Ok(SUCCESS);
     // Whoever ends the work from outside keeps what is known.
@@ -93,10 +94,11 @@ fn questions(
     let by_name = Nodes::by_name(&located.net);
     for text in &arguments.formula {
         let source = Source::new("formula", text.as_str());
-        let bound =
-            parse_formula(&source).map_err(|error| vec![error]).and_then(|parsed| bind_in_net(&parsed, &by_name));
-        match bound {
+        let parsed = parse_formula(&source).map_err(|error| vec![error]);
+        let doubt = parsed.as_ref().ok().and_then(|parsed| parsed.doubt(text, View::Transition));
+        match parsed.and_then(|parsed| bind_in_net(&parsed, &by_name)) {
             Ok(bound) => {
+                console.diagnostics(doubt.as_slice(), &source);
                 names.push(text.clone());
                 questions.push(Question::Holds(bound.simplified()));
             }

@@ -9,39 +9,25 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
+use super::guard::{self, Reason};
+use super::memory;
+use super::sign_of_life::{self, in_short};
 
 /// Watches a search.
 pub struct Watcher {
     bar: ProgressBar,
+    /// Whether its figures are those of all the work.
+    is_alone: bool,
     started: Instant,
     timeout: Option<Duration>,
+    /// MiB that may be in use.
+    memory: u64,
     /// When the figures were last shown, in time since the start.
     shown: Cell<Duration>,
 }
 
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
-
-/// When whoever started the program wanted it to end.
-static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
-
-/// A signal so soon after another is the same one, sent to the program and to its group.
-const TWICE: Duration = Duration::from_millis(500);
-
-/// From now on, Ctrl-C ends the search, and the second one the program.
-pub fn listen() {
-    // If nobody can be told, Ctrl-C ends the program as usual.
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
-            std::process::exit(130);
-        }
-    });
-}
-
-/// Whether whoever started the program wants it to end.
-pub fn is_interrupted() -> bool {
-    INTERRUPTED.get().is_some()
-}
 
 /// Sets the number of threads, once.
 pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
@@ -55,20 +41,21 @@ pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
 }
 
 impl Watcher {
-    /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
+    /// Sets the number of threads, and begins to watch.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
-        listen();
+        guard::listen();
+        sign_of_life::begin();
         // Drawn on standard error, and only if that is a terminal.
-        Self::drawing(limits, ProgressDrawTarget::stderr())
+        Self::drawing(limits, ProgressDrawTarget::stderr(), true)
     }
 
     /// Watches one search among several, and shows nothing.
     pub fn unseen(limits: &Limits) -> Result<Self, Failure> {
-        Self::drawing(limits, ProgressDrawTarget::hidden())
+        Self::drawing(limits, ProgressDrawTarget::hidden(), false)
     }
 
-    fn drawing(limits: &Limits, target: ProgressDrawTarget) -> Result<Self, Failure> {
+    fn drawing(limits: &Limits, target: ProgressDrawTarget, is_alone: bool) -> Result<Self, Failure> {
         let timeout = match limits.timeout.map(Duration::try_from_secs_f64) {
             Some(Err(error)) => return Err(Failure::Message(format!("--timeout: {error}"))),
             Some(Ok(timeout)) => Some(timeout),
@@ -76,13 +63,22 @@ impl Watcher {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
-        Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
+        let memory = limits.budget().bytes >> 20;
+        Ok(Self { bar, is_alone, started: Instant::now(), timeout, memory, shown: Cell::default() })
     }
 
-    /// Shows the figures; gives a reason to stop if time is up.
+    /// Shows the figures; gives a reason to stop if time is up, or memory.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
+        if self.is_alone {
+            let (states, rest) = (in_short(progress.states), in_short(progress.states - progress.expanded));
+            sign_of_life::say(if done {
+                format!("{states} states, checking the requirements")
+            } else {
+                format!("{states} states, {rest} still to expand")
+            });
+        }
         if elapsed > self.shown.get() + PAUSE || (done && elapsed > PAUSE) {
             if self.shown.replace(elapsed).is_zero() {
                 self.bar.enable_steady_tick(Duration::from_millis(100));
@@ -101,11 +97,14 @@ impl Watcher {
                 )
             });
         }
-        if is_interrupted() {
-            return Some("interrupted".to_owned());
-        }
-        let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
-        Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
+        let time = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
+        let memory = (guard::used() > self.memory).then(|| Reason::memory(self.memory));
+        guard::asked().or(time).or(memory).map(|reason| reason.to_string())
+    }
+
+    /// The figures on the terminal, which can make room for something else.
+    pub fn figures(&self) -> ProgressBar {
+        self.bar.clone()
     }
 
     /// Does something while the figures are off the terminal.
@@ -115,6 +114,7 @@ impl Watcher {
 
     /// Clears the figures.
     pub fn finish(&self) {
+        sign_of_life::end();
         self.bar.finish_and_clear();
     }
 }
@@ -127,6 +127,7 @@ impl Limits {
 
     /// The same where so many states are enough if nothing else is said.
     pub fn budget_of(&self, states: u64) -> Budget {
-        Budget { states: self.max_states.unwrap_or(states), bytes: self.max_memory.saturating_mul(1 << 20) }
+        let bytes = self.max_memory.unwrap_or_else(memory::default_limit).saturating_mul(1 << 20);
+        Budget { states: self.max_states.unwrap_or(states), bytes }
     }
 }

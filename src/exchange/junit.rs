@@ -76,6 +76,9 @@ fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
     for assumption in &checked.report.assumptions {
         property("assumed", assumption)?;
     }
+    for warning in &checked.report.warnings {
+        property("warning", warning)?;
+    }
     for answer in checked.answers() {
         for tag in &answer.tags {
             property(&format!("{}.{}", answer.name, tag.name), tag.value.as_deref().unwrap_or("true"))?;
@@ -92,7 +95,7 @@ fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) 
         Outcome::Holds { .. } => return element.write_empty().map(drop),
         Outcome::Unknown(_) => ("error", head(answer)),
         Outcome::Violated(witness, _) => {
-            let mut body = head(answer) + "\n" + &checked.told(witness);
+            let mut body = head(answer) + "\n" + &checked.told(answer, witness);
             let why = why(answer).map(|why| checked.explained(why)).unwrap_or_default();
             body.extend(why.into_iter().map(|sentence| sentence + "\n"));
             ("failure", body)

@@ -33,6 +33,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let mut properties = json!({
         "verdict": checked.report.verdict().word(),
         "assumptions": checked.report.assumptions,
+        "warnings": checked.report.warnings,
     });
     properties["verdicts"] =
         checked.answers().map(|a| (a.name.clone(), a.outcome.verdict().word().into())).collect::<Map<_, _>>().into();
@@ -65,6 +66,12 @@ fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
         "defaultConfiguration": { "level": level(answer) },
         "properties": { "tags": tags(answer).collect::<Vec<_>>(), "formula": answer.formula },
     });
+    // What holds gives no result, which would say it.
+    if answer.outcome.verdict() == Verdict::Holds
+        && let Some(reason) = checked.reason(answer)
+    {
+        rule["properties"]["reason"] = reason.into();
+    }
     if let Some(origin) = checked.file_of(answer) {
         rule["properties"]["origin"] = format!("{}:{}:{}", origin.file, origin.line, origin.column).into();
     }
@@ -105,8 +112,8 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize
     let mut places: Vec<Value> = writers.collect();
     // The last writer is the nearest to the break. An error breaks where it happens.
     places.reverse();
-    if places.is_empty() {
-        places.extend(met(answer).map(|(line, hazard)| at_line(checked, line, &hazard.to_string())));
+    if let Some((line, hazard)) = met(answer) {
+        places.insert(0, at_line(checked, line, &hazard.to_string()));
     }
     places.extend(origin);
     let mut places = places.into_iter();

@@ -21,10 +21,15 @@ pub struct Answer {
     pub formula: String,
     /// Where it stands; a check that is made without asking stands nowhere.
     pub origin: Option<Origin>,
+    /// Variables of the program that the formula speaks of.
+    #[serde(default)]
+    pub variables: Vec<VarId>,
     /// What is known.
     pub outcome: Outcome,
     /// If it holds whatever the program does.
     pub independent: Option<Independence>,
+    /// What is doubtful about the requirement itself, whatever the outcome is.
+    pub remark: Option<String>,
     /// Whether this was found by an earlier check.
     pub recalled: bool,
 }
@@ -40,8 +45,10 @@ impl Answer {
             tags: requirement.tags.clone(),
             formula: requirement.text.clone(),
             origin: Some(requirement.origin.clone()),
+            variables: Vec::new(),
             outcome,
             independent: None,
+            remark: None,
             recalled: false,
         }
     }
@@ -56,8 +63,10 @@ impl Answer {
             tags: Vec::new(),
             formula: formula.to_owned(),
             origin: None,
+            variables: Vec::new(),
             outcome,
             independent: None,
+            remark: None,
             recalled: false,
         }
     }

@@ -5,12 +5,16 @@
 pub mod agreement;
 pub mod assembler;
 pub mod browser;
+pub mod constructs;
 pub mod contest;
 pub mod document;
 pub mod forms;
+pub mod growing_net;
+pub mod indifference;
 pub mod naive_ctl;
 pub mod naive_ltl;
 pub mod naive_nets;
+pub mod naive_partial;
 pub mod naive_structure;
 pub mod process;
 pub mod random_flat;

@@ -59,6 +59,7 @@ pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
         "complete": report.exploration.complete,
         "covered": covered(checked),
         "assumptions": report.assumptions,
+        "warnings": report.warnings,
         "remarks": remarks(checked),
         "net": sizes,
         "variables": variables,
@@ -132,7 +133,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
         "verdict": answer.outcome.verdict().word(),
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
         "formula": answer.formula,
-        "runs": runs(answer).map(|(purpose, witness)| all.run(purpose, witness)).collect::<Vec<_>>(),
+        "runs": runs(answer).map(|(purpose, witness)| all.run(answer, purpose, witness)).collect::<Vec<_>>(),
     });
     let mut set = |member: &str, value: Option<Value>| {
         if let Some(value) = value {
@@ -141,6 +142,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
     };
     set("sentence", answer.sentence.clone().map(Value::from));
     set("words", answer.words.clone().map(Value::from));
+    set("remark", answer.remark.clone().map(Value::from));
     set("reason", checked.reason(answer).map(Value::from));
     set("tags", Some(tags(answer).collect::<Vec<_>>()).filter(|tags| !tags.is_empty()).map(Value::from));
     set("origin", checked.file_of(answer).map(|o| format!("{}:{}:{}", o.file, o.line, o.column).into()));
