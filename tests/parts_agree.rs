@@ -207,3 +207,19 @@ fn assumptions_are_checked() {
     assert_eq!(checked("!pre(q)", 0), "unknown: the time is up; the states explored are no dead ends");
     assert_eq!(checked("!pre(q)", 100), "violated");
 }
+
+/// A state whose steps are not known is no end of a run: `q` is FALSE after the first scan, and TRUE after all others.
+#[test]
+fn a_state_that_was_not_expanded_is_no_end() {
+    let text = "PROGRAM p VAR m : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD m\nST q\nLD TRUE\nST m\nEND_PROGRAM";
+    let system = random_program::system(support::program(text), None);
+    for (formula, whole) in [("EG !q", Verdict::Violated), ("AF q", Verdict::Holds), ("LTL F q", Verdict::Holds)] {
+        let asked = [requirement(formula, &system, View::Scan)];
+        let verdict = |limit: Option<&str>| {
+            let report = check(&system, &asked, &Options::default(), &mut |_| limit.map(str::to_owned));
+            report.answers[0].outcome.verdict()
+        };
+        assert_eq!(verdict(None), whole, "{formula}");
+        assert_eq!(verdict(Some("the time is up")), Verdict::Unknown, "{formula}");
+    }
+}
