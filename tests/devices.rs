@@ -100,12 +100,12 @@ fn paths_are_shortest_or_there_is_none() {
 /// What is probably mistyped: the line of each warning.
 #[test]
 fn doubtful_parts_are_told() {
+    use Code::{PlantPlaceUndeclared as Undeclared, PlantTransitionDead as Dead};
     let warnings = |net: &str| {
         let source = Source::new("n.net", net);
         let found = Plant::default().add(&tina::read(&source).unwrap(), &program()).unwrap();
         found.iter().map(|d| (d.code, source.line_of(d.span().start))).collect::<Vec<_>>()
     };
-    use Code::{PlantPlaceUndeclared as Undeclared, PlantTransitionDead as Dead};
     let there_and_back = "pl {a=0} (1)\ntr t {a=0} -> {a=1}\ntr u {a=1} -> {a=0}\n";
     assert_eq!(warnings(there_and_back), []);
     assert_eq!(warnings("pl {a=0} (1)\ntr t {a=0} -> {a=1}\n"), [(Undeclared, 2)]);

@@ -239,7 +239,8 @@ proptest! {
             let Some(expected) = whole.verdict(path, &assumed) else { continue };
             prop_assert_eq!(all[2 * i], expected, "of LTL, {:?}", path);
             prop_assert_eq!(all[2 * i + 1], expected, "of CTL, {:?}", path);
-            prop_assert_eq!(part[2 * i], part[2 * i + 1], "LTL and CTL, {:?}", path);
+            // What follows a formula along the paths has the same limit of states, so CTL may know more, but not the other way round.
+            prop_assert!(part[2 * i] == Verdict::Unknown || part[2 * i] == part[2 * i + 1], "LTL and CTL, {:?}", path);
             prop_assert!(part[2 * i] == Verdict::Unknown || part[2 * i] == expected, "on a part, {:?}", path);
         }
     }

@@ -64,8 +64,8 @@ fn what_is_told_is_what_is_reported() {
     assert_eq!(*heard.lock().unwrap(), texts);
     assert_eq!(format!("{report:?}"), format!("{expected:?}"));
 
-    // What is known already comes at its place.
-    let (_, known) = check_knowing(&system, &asked[5..12], &options, None, watch);
+    // What is known already, of three formulas, comes at its place.
+    let (_, known) = check_knowing(&system, &asked[5..8], &options, None, watch);
     heard.lock().unwrap().clear();
     let (report, _) = check_knowing_aloud(&system, &asked, &options, known.as_ref(), watch, Some(&tell));
     let mut texts = vec![format!("{:?} {:?}", report.exploration, report.assumptions)];

@@ -57,8 +57,9 @@ pub fn piecewise_scan_table(system: &System, trace: &ScanTrace, shown: &Shown<'_
                     movements.truncate(MOST_MOVEMENTS);
                     movements.push(format!("{more} more"));
                 }
-                let colon = if movements.is_empty() { "" } else { ": " };
-                table.across(format!("{dots} {}{colon}{} {dots}", fold.title(), movements.join(", ")));
+                let what =
+                    if movements.is_empty() { " alike".to_owned() } else { format!(": {}", movements.join(", ")) };
+                table.across(format!("{dots} {}{what} {dots}", fold.title()));
                 continue;
             }
         };

@@ -210,8 +210,10 @@ function tracks(playback, items, variables) {
       if (!track) continue;
       const last = track[track.length - 1];
       if (fold && last.moves === fold) last.value = value;
-      else if (fold) track.push({ at: fold.first, moves: fold, from: last.value, value });
-      else {
+      else if (fold) {
+        // An instruction may write the value that is there.
+        if (value !== last.value) track.push({ at: fold.first, moves: fold, from: last.value, value });
+      } else {
         if (last.moves) track.push({ at: last.moves.last + 1, value: last.value });
         const now = track[track.length - 1];
         if (value === now.value) continue;
