@@ -8,6 +8,7 @@ use petril::flat::{FlatProgram, Hazard, Tolerated};
 use petril::sif::Specification;
 use petril::sif::proof::{By, Confirmed, Failure, Form, Options, Outcome, Proof, Subject, prove};
 use petril::source::Source;
+use petril::verdict::Verdict;
 
 const F1: &str = include_str!("../examples/beam-interlock.sif");
 
@@ -202,13 +203,20 @@ fn errors_are_told() {
     let told = proof_with(&text, &counting, Tolerated::default(), &few);
     assert!(matches!(told.answers[0].outcome, Outcome::Proved { .. }));
     assert!(told.failures.is_empty() && told.unknown_failures.len() == 1, "{told:#?}");
+    let nothing_of_failures = "of scans that fail, and of what comes after them, nothing is claimed";
+    assert!(told.assumptions.iter().any(|assumed| assumed == nothing_of_failures), "{told:#?}");
+    assert_eq!(told.verdict(), Verdict::Unknown);
     let wrapping = Tolerated { overflow: true, division_by_zero: false };
-    assert!(proof_with(&text, &counting, wrapping, &few).unknown_failures.is_empty());
+    let told = proof_with(&text, &counting, wrapping, &few);
+    assert!(told.unknown_failures.is_empty() && !told.assumptions.iter().any(|it| it == nothing_of_failures));
+    assert_eq!(told.verdict(), Verdict::Holds);
     // A division by the number of inputs that are TRUE.
     let dividing = "LD a\nBOOL_TO_INT\nST n\nLD b\nBOOL_TO_INT\nADD n\nST n\nLD 6\nDIV n\nGT 5\nNOT\nST y";
     let told = proof(&text, &program("a, b, c", "y", more, dividing));
     let (failure, scans) = &told.failures[0];
     assert!(matches!(failure, Failure::Hazard(_, Hazard::DivisionByZero)));
+    assert!(told.assumptions.iter().any(|assumed| assumed == nothing_of_failures), "{told:#?}");
+    assert_eq!(told.verdict(), Verdict::Violated);
     assert_eq!(scans.len(), 1);
     assert_eq!(scans[0].given.inputs.iter().map(|(_, value)| *value).collect::<Vec<_>>(), [0, 0, 0]);
     // 6 / 1 > 5, 6 / 2 is not: but for that error it is proved.

@@ -19,7 +19,8 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
     }
     match dead_end(graph) {
         Some(state) => shown(view, state),
-        None if *graph.stop() == Stop::Complete => Outcome::holds(),
+        None if graph.is_complete() => Outcome::holds(),
+        None if *graph.stop() == Stop::Complete => Outcome::Unknown(what_is_missing(graph)),
         None => Outcome::Unknown(format!("{}; the states explored are no dead ends", graph.stop())),
     }
 }

@@ -92,7 +92,7 @@ mod tests {
             recalled: false,
         };
         let (answers, checks, remarks, assumptions) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Report { exploration, assumptions, answers, checks, remarks, coverage: None }
+        Report { exploration, assumptions, answers, checks, remarks, warnings: Vec::new(), coverage: None }
     }
 
     #[test]

@@ -179,3 +179,97 @@ impl<'a> Opinion<'a> {
         Some(Signals { values, wanted: wanted? })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flat::{Tolerated, flatten};
+    use crate::semantics;
+    use crate::sif::Specification;
+    use crate::source::Source;
+    use crate::syntax;
+
+    /// The opinion on each claim about a program with inputs a, b, c and outputs y, z.
+    fn opinions(text: &str, body: &str, tolerated: Tolerated) -> Vec<Option<bool>> {
+        let program = format!(
+            "PROGRAM p VAR_INPUT a, b, c : BOOL; END_VAR VAR_OUTPUT y, z : BOOL; END_VAR VAR n : INT; END_VAR\n{body}\nEND_PROGRAM"
+        );
+        let (unit, _) = syntax::parse(&Source::new("program", program.as_str()));
+        let Some(program) = semantics::check(&unit, true).0 else { panic!("{program}") };
+        let program = flatten(&program);
+        let (specification, errors) = Specification::read(&[Source::new("test.sif", text)]);
+        let Some(specification) = specification else { panic!("{errors:#?}") };
+        let Ok(subject) = Subject::new(&specification, &program, tolerated, &[]) else { panic!("{text}") };
+        let Ok(gates) = ScanGates::of(&program, tolerated) else { panic!("{body}") };
+        subject.claims.iter().map(|claim| holds(&subject, &gates, claim)).collect()
+    }
+
+    fn function(output: &str, formal: &str) -> String {
+        format!("function F {{ interface {{ input a; input b; input c; output y{output}; }} formal {{ {formal} }} }}")
+    }
+
+    fn opinion(text: &str, body: &str) -> Vec<Option<bool>> {
+        opinions(text, body, Tolerated::default())
+    }
+
+    #[test]
+    fn what_differs_somewhere_is_seen() {
+        let (and, or) = ("LD a\nAND b\nST y", "LD a\nOR b\nST y");
+        assert_eq!(opinion(&function("", "y = a & b;"), and), [Some(true)]);
+        assert_eq!(opinion(&function("", "y = a & b;"), or), [Some(false)]);
+        // OR is XOR where at most one is TRUE, whatever else is restricted before or behind.
+        for (restricted, expected) in [
+            ("", false),
+            ("restriction R: at most one of a, b;", true),
+            ("restriction R: never c;", false),
+            ("restriction R: never c; restriction S: at most one of a, b;", true),
+            ("restriction R: at most one of a, b; restriction S: never c;", true),
+            ("restriction R: never c; restriction S: never (a & c);", false),
+        ] {
+            assert_eq!(
+                opinion(&function("", &format!("y = a xor b; {restricted}")), or),
+                [Some(expected)],
+                "{restricted}"
+            );
+        }
+        // On without reason, and off too late.
+        assert_eq!(opinion(&function(" delayed T#1s", "y = a & b;"), "LD a\nAND b\nAND c\nST y"), [Some(true)]);
+        assert_eq!(opinion(&function(" delayed T#1s", "y = a & b;"), "LD a\nST y"), [Some(false)]);
+        // Some state that is never reached has the latch on and the output off.
+        let latch = "LD c\nR y\nLD a\nAND b\nS y";
+        assert_eq!(opinion(&function(" latched until c", "y = a & b;"), latch), [Some(false)]);
+    }
+
+    #[test]
+    fn scans_that_fail_are_left_out_and_no_others() {
+        let text = function("", "y = a & b;");
+        // 6 / 1 is greater than 5, 6 / 2 is not, and 6 / 0 is an error, or 0.
+        let dividing = "LD a\nBOOL_TO_INT\nST n\nLD b\nBOOL_TO_INT\nADD n\nST n\nLD 6\nDIV n\nGT 5\nNOT\nST y";
+        let zero = Tolerated { overflow: false, division_by_zero: true };
+        assert_eq!(opinion(&text, dividing), [Some(true)]);
+        assert_eq!(opinions(&text, dividing, zero), [Some(false)]);
+        // It is wrong in scans without an error, too: those with c.
+        let wrong = "LD c\nBOOL_TO_INT\nST n\nLD 6\nDIV n\nST n\nLD a\nOR b\nST y";
+        assert_eq!(opinion(&text, wrong), [Some(false)]);
+    }
+
+    #[test]
+    fn outputs_are_what_is_specified_of_them_unless_they_are_delayed() {
+        let text = |delay: &str| {
+            format!(
+                "function F {{ interface {{ input a; output y{delay}; }} formal {{ y = a; }} }}
+                 function G {{ interface {{ input b; input y; output z; }} formal {{ z = y & b; }} }}"
+            )
+        };
+        let late = "LD a\nAND c\nST y\nLD a\nAND b\nST z";
+        assert_eq!(opinion(&text(""), "LD a\nST y\nAND b\nST z"), [Some(true), Some(true)]);
+        assert_eq!(opinion(&text(""), late), [Some(false), Some(true)]);
+        assert_eq!(opinion(&text(" delayed T#1s"), late), [Some(true), Some(false)]);
+        assert_eq!(opinion(&text(" delayed T#1s"), "LD a\nAND c\nST y\nAND b\nST z"), [Some(true), Some(true)]);
+        // What the program does not have is as the restrictions need it.
+        let outside = "restriction R: always a -> elsewhere; restriction S: always elsewhere -> b; input elsewhere;";
+        let text = outside.to_owned() + &function("", "y = a & b;");
+        assert_eq!(opinion(&text, "LD a\nST y"), [Some(true)]);
+        assert_eq!(opinion(&text.replace("elsewhere -> b", "elsewhere -> c"), "LD a\nST y"), [Some(false)]);
+    }
+}

@@ -144,6 +144,9 @@ impl Search<'_> {
             }
         }
         for scans in 1..=self.bounds.scans {
+            if scans > 1 {
+                self.runs.extend(self.network, false);
+            }
             self.runs_of(scans);
             if self.undecided().is_empty() {
                 return;
@@ -156,9 +159,8 @@ impl Search<'_> {
             if (self.bounds.stop)() {
                 break;
             }
-            self.runs.extend(self.network, false);
         }
-        let scans = self.runs.frames.len();
+        let scans = self.runs.frames.len().min(self.bounds.scans);
         let bits = self.steps.frames[0].start.bits();
         for goal in self.undecided() {
             let reason = if (self.bounds.stop)() {
