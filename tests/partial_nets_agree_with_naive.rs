@@ -8,9 +8,10 @@
 mod support;
 
 use std::collections::BTreeSet;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
-use petril::explore::engine::{Arcs, Exploration, Model, Options, explore};
+use petril::explore::engine::{Arcs, Exploration, Model, Options, View, Wanted, explore};
 use petril::explore::{Budget, Stop};
 use petril::logic::{Bound, Comparison, Quantifier, Term};
 use petril::net::{Net, PlaceId, TransitionId};
@@ -363,6 +364,42 @@ fn states_that_tables_have_no_room_for_are_left_out() {
             let figures = &exploration.figures;
             assert!(figures.states > 30_000 && figures.bytes < bytes / 2 * 3, "{figures:?}");
             check_rows(&model, &exploration).unwrap();
+        }
+    }
+}
+
+/// Remembers the first marking with many tokens, as long as it is to be kept.
+#[derive(Default)]
+struct Remembering(Mutex<(Option<Marking>, usize)>);
+
+impl Wanted for Remembering {
+    fn is(&self, view: &View<'_>) -> bool {
+        let mut known = self.0.lock().unwrap();
+        if known.0.is_none() && view.tokens(0) >= 2 {
+            known.0 = Some(view.marking());
+        }
+        false
+    }
+
+    fn forget(&self) {
+        let mut known = self.0.lock().unwrap();
+        *known = (None, known.1 + 1);
+    }
+}
+
+#[test]
+fn a_search_that_begins_again_forgets_what_it_will_not_keep() {
+    let grow = |by| Arcs { pre: vec![], post: vec![(0, by)] };
+    let model = Model { initial: vec![0], transitions: vec![grow(1), grow(1 << 20), grow(1 << 40)] };
+    for threads in 1..=4 {
+        for states in [1, 10, 1000] {
+            let seen = Remembering::default();
+            let options = Limit::States(states).options(threads);
+            let exploration = explore(&model, &options, &mut |_| None, Some(&seen));
+            let (found, times) = seen.0.into_inner().unwrap();
+            assert!(times > 0, "the digit of 1 bit has become larger");
+            assert!(states < 1000 || found.is_some());
+            assert!(found.is_none_or(|found| exploration.firings(&found).is_some()));
         }
     }
 }

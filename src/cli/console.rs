@@ -1,8 +1,8 @@
 //! The terminal: colour, width, and where messages go.
 
-use std::cell::RefCell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use petril::diagnostic::{Diagnostic, Style, render};
 use petril::exchange::json;
@@ -26,12 +26,12 @@ pub struct Console {
     /// Whether results may have other characters than ASCII.
     has_unicode: bool,
     /// The diagnostics printed so far, for those who want JSON.
-    printed: RefCell<Vec<Value>>,
+    printed: Mutex<Vec<Value>>,
     /// Messages, if they are not printed at once.
-    held: Option<RefCell<String>>,
+    held: Option<Mutex<String>>,
     colour: When,
     /// What was seen of the file system.
-    seen: RefCell<Seen>,
+    seen: Mutex<Seen>,
 }
 
 /// What one of several consoles was told.
@@ -62,10 +62,10 @@ impl Console {
             width,
             output_width: console_width().or_else(terminal_width),
             has_unicode: locale_has_unicode(),
-            printed: RefCell::default(),
+            printed: Mutex::default(),
             held: None,
             colour,
-            seen: RefCell::default(),
+            seen: Mutex::default(),
         }
     }
 
@@ -76,42 +76,42 @@ impl Console {
 
     /// A console that keeps everything to itself until it is told to this one.
     pub fn holding(colour: When) -> Self {
-        Self { held: Some(RefCell::default()), ..Self::new(colour) }
+        Self { held: Some(Mutex::default()), ..Self::new(colour) }
     }
 
     /// What was told to a console that keeps it.
     pub fn told(self) -> Told {
-        let messages = self.held.map(RefCell::into_inner).unwrap_or_default();
-        Told { messages, diagnostics: self.printed.into_inner(), seen: self.seen.into_inner() }
+        let messages = self.held.map(inner).unwrap_or_default();
+        Told { messages, diagnostics: inner(self.printed), seen: inner(self.seen) }
     }
 
     /// Prints what another one was told.
     pub fn tell(&self, told: Told) {
         self.message(&told.messages);
-        self.printed.borrow_mut().extend(told.diagnostics);
-        self.seen.borrow_mut().extend(told.seen);
+        lock(&self.printed).extend(told.diagnostics);
+        lock(&self.seen).extend(told.seen);
     }
 
     /// A file was read, or could not be.
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
         output::has_read(path);
-        self.seen.borrow_mut().file(path, bytes);
+        lock(&self.seen).file(path, bytes);
     }
 
     /// A pattern matched these files.
     pub fn has_matched(&self, pattern: &str, files: &[PathBuf]) {
-        self.seen.borrow_mut().pattern(pattern, files);
+        lock(&self.seen).pattern(pattern, files);
     }
 
     /// What was seen of the file system since this was last asked.
     pub fn take_seen(&self) -> Seen {
-        self.seen.take()
+        std::mem::take(&mut *lock(&self.seen))
     }
 
     /// Prints the diagnostics of a file, most of them, each with an empty line behind it.
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], source: &Source) {
         let style = Style { colour: self.errors_in_colour, width: self.width };
-        self.printed.borrow_mut().extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
+        lock(&self.printed).extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
         for diagnostic in diagnostics.iter().take(MAX_DIAGNOSTICS) {
             self.message(&format!("{}\n", render(diagnostic, source, style)));
         }
@@ -138,7 +138,7 @@ impl Console {
     /// Prints a message. If nobody listens, so be it.
     pub fn message(&self, text: &str) {
         match &self.held {
-            Some(held) => held.borrow_mut().push_str(text),
+            Some(held) => lock(held).push_str(text),
             None => drop(guard::pause(|| io::stderr().write_all(text.as_bytes()))),
         }
     }
@@ -157,7 +157,7 @@ impl Console {
 
     /// Prints a result as a JSON document, with the diagnostics printed so far.
     pub fn print_json(&self, mut document: Value) -> Outcome {
-        document["diagnostics"] = Value::Array(self.printed.take());
+        document["diagnostics"] = Value::Array(std::mem::take(&mut *lock(&self.printed)));
         self.print(&format!("{document:#}\n"))
     }
 
@@ -185,6 +185,15 @@ impl Console {
     pub fn output_in_colour(&self) -> bool {
         self.output_in_colour
     }
+}
+
+/// What several threads share. What one of them did before it panicked is as good as ever.
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn inner<T>(shared: Mutex<T>) -> T {
+    shared.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What a colour means.

@@ -54,6 +54,17 @@ impl Class {
                 Self::Ordered => true,
             }
     }
+
+    /// Whether an operator can come out differently in two types of the class that both have the operands: a result may
+    /// overflow, or a complement, shift or rotation reaches the highest bit.
+    fn depends_on_type(self, operator: &str) -> bool {
+        let operators: &[&str] = match self {
+            Self::Bits => &["NOT", "LDN", "ORN", "XORN", "SHL", "ROL", "ROR"],
+            Self::Magnitudes | Self::Integers => &["ADD", "SUB", "MUL", "DIV", "MOD", "ABS"],
+            Self::Ordered => &[],
+        };
+        operators.iter().any(|word| word.eq_ignore_ascii_case(operator))
+    }
 }
 
 /// The variables and what is asked of them.
@@ -214,7 +225,7 @@ impl Inference {
             if class == Class::Bits {
                 bits.insert(root);
             }
-            if DEPEND_ON_TYPE.iter().any(|word| word.eq_ignore_ascii_case(&operator)) {
+            if class.depends_on_type(&operator) {
                 depends.entry(root).or_insert((span, operator));
             }
         }
@@ -241,11 +252,6 @@ impl Inference {
         found
     }
 }
-
-/// Operators that can come out differently in two types that both have the operands: a result may overflow, or a complement,
-/// shift or rotation reaches the highest bit.
-const DEPEND_ON_TYPE: [&str; 13] =
-    ["ADD", "SUB", "MUL", "DIV", "MOD", "ABS", "NOT", "LDN", "ORN", "XORN", "SHL", "ROL", "ROR"];
 
 /// What to do where an operator has no meaning for a type.
 fn advice(class: Class, scalar: &Scalar) -> String {

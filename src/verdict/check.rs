@@ -1,7 +1,5 @@
 //! A system and requirements to a report: one exploration, then every requirement on its graph.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::prelude::*;
 
 use super::assumptions::assumptions;
@@ -9,6 +7,7 @@ use super::coverage::coverage;
 use super::failing::what_is_missing;
 use super::fairness::Fair;
 use super::independence::{Independence, independence};
+use super::news::{InOrder, Tell};
 use super::premises::{Occurrence, occurrence};
 use super::remarks::remarks;
 use super::remembering::RememberingView;
@@ -17,11 +16,11 @@ use super::why::{Broken, why};
 use super::{
     Answer, Exploration, Outcome, Report, Verdict, Witness, admitted, asserted, every_line, hazards, scan_ends,
 };
-use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed, watched};
+use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
 use crate::logic::{
     Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Labels, Node, NodeId,
-    Quantifier, Requirement, View, evidence, label, label_until,
+    Quantifier, Requirement, View, evidence, label,
 };
 use crate::translate::System;
 use crate::witness::Disagreement;
@@ -61,9 +60,22 @@ pub fn check(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Report {
+    check_aloud(system, requirements, options, watch, None)
+}
+
+/// As [`check()`]; `tell` hears of what was explored and of each answer as soon as all before it are known.
+#[must_use]
+pub fn check_aloud(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    tell: Option<Tell<'_>>,
+) -> Report {
+    let told = InOrder::new(tell);
     match options.view {
-        View::Scan => check_scans(system, requirements, options, watch),
-        View::Transition => check_markings(system, requirements, options, watch),
+        View::Scan => check_scans(system, requirements, options, watch, &told),
+        View::Transition => check_markings(system, requirements, options, watch, &told),
     }
 }
 
@@ -72,6 +84,7 @@ fn check_scans(
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    told: &InOrder<'_>,
 ) -> Report {
     let Options { assumptions, assertions, .. } = options;
     let assumed = Assumed { assumptions, assertions };
@@ -80,7 +93,7 @@ fn check_scans(
     let space = ScanSpace::assuming(system, options.tolerated, admission);
     let graph = explore(&space, options.budget, watch);
     let view = ScanView { space, graph, assumptions: &options.assumptions };
-    let (outcomes, left_out) = outcomes(&view, requirements, options, watch);
+    let (outcomes, left_out) = outcomes(&view, requirements, options, watch, told);
     let ScanView { space, graph, .. } = &view;
     let asserted = asserted::answers(&view, &options.assertions, &mut || watch(&done(graph)).is_some());
     let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
@@ -124,15 +137,24 @@ pub(super) fn answers(
     options: &Options,
     outcomes: Vec<Outcome>,
 ) -> Vec<Answer> {
-    let answer = |((requirement, demand), outcome): (&(Requirement, Demand), Outcome)| {
-        let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
-        let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
-        // Which runs count may depend on the program.
-        let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
-        let remark = requirement.remark(options.view);
-        Answer { independent: independent.filter(certain), remark, ..Answer::to(requirement, outcome) }
-    };
-    requirements.iter().zip(outcomes).map(answer).collect()
+    requirements.iter().zip(outcomes).map(|(asked, outcome)| answer(system, asked, options, outcome)).collect()
+}
+
+/// The answer to a requirement with this outcome.
+pub(super) fn answer(
+    system: &System,
+    (requirement, demand): &(Requirement, Demand),
+    options: &Options,
+    outcome: Outcome,
+) -> Answer {
+    let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
+    let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
+    // Which runs count may depend on the program.
+    let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
+    let variables = demand.formula().map(|formula| formula.mentions().variables).unwrap_or_default();
+    let variables = variables.into_iter().collect();
+    let remark = requirement.remark(options.view);
+    Answer { independent: independent.filter(certain), variables, remark, ..Answer::to(requirement, outcome) }
 }
 
 /// The outcomes of requirements on scans, and what no run goes through that counts, in words. Requirements that know the same of the
@@ -142,6 +164,7 @@ fn outcomes(
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    told: &InOrder<'_>,
 ) -> (Vec<Outcome>, Option<String>) {
     let mut groups: Vec<(History, Vec<usize>)> = Vec::new();
     for (position, (_, demand)) in requirements.iter().enumerate() {
@@ -153,9 +176,9 @@ fn outcomes(
         }
     }
     let mut outcomes = vec![Outcome::holds(); requirements.len()];
-    let mut left_out = None;
-    let progress = done(&view.graph);
+    let (mut left_out, mut rest) = (None, groups.len());
     for (history, members) in groups {
+        rest -= 1;
         let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
         let budget = Budget { bytes, ..options.budget };
         let remembering;
@@ -167,33 +190,24 @@ fn outcomes(
         };
         let fair = Fair::on(view_of, &options.fairness);
         left_out = left_out.or_else(|| fair.as_ref().and_then(Fair::left_out));
-        let (judged, reason) = watched(watch, &progress, |stopping| {
-            let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget, stopping };
-            let judged = members.par_iter().map(|&position| match &requirements[position].1 {
+        // What no run goes through is told above the answers.
+        if fair.is_none() || left_out.is_some() || rest == 0 {
+            told.begin(|| report(view.system(), requirements, options, &view.graph, left_out.clone()));
+        }
+        let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget };
+        let judged = members.par_iter().map(|&position| {
+            let outcome = match &requirements[position].1 {
                 Demand::Formula(formula) => judge.outcome(formula),
                 Demand::Possible(formula) => judge.outcome_of_possibility(formula),
                 Demand::EveryLine => every_line::outcome(view),
-            });
-            judged.collect()
+            };
+            told.put(position, || answer(view.system(), &requirements[position], options, outcome.clone()));
+            outcome
         });
-        let judged = explained(judged, reason, members.len());
+        let judged: Vec<Outcome> = judged.collect();
         members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
     }
     (outcomes, left_out)
-}
-
-/// An outcome that nobody waits for any more. Its reason is added where it is known.
-pub(super) const STOPPED: Outcome = Outcome::Unknown(String::new());
-
-/// Outcomes with the reason why those were stopped that have none.
-fn explained(judged: Option<Vec<Outcome>>, reason: Option<String>, count: usize) -> Vec<Outcome> {
-    let judged = judged.unwrap_or_else(|| vec![STOPPED; count]);
-    let reason = format!("{} while requirements were checked", reason.unwrap_or_else(|| "it was stopped".to_owned()));
-    let explain = |outcome| match outcome {
-        Outcome::Unknown(none) if none.is_empty() => Outcome::Unknown(reason.clone()),
-        outcome => outcome,
-    };
-    judged.into_iter().map(explain).collect()
 }
 
 fn check_markings(
@@ -201,39 +215,35 @@ fn check_markings(
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    told: &InOrder<'_>,
 ) -> Report {
     let markings = Markings::explored(&system.net, options.budget, watch);
     let view = TransitionView { markings, system };
     let graph = view.graph();
     let fair = Fair::on(&view, &options.fairness);
     let left_out = fair.as_ref().and_then(Fair::left_out);
-    let demands: Vec<&Demand> = requirements.iter().map(|(_, demand)| demand).collect();
-    // What must be so whenever control comes somewhere, and the checks, are about all runs.
-    let hazards: Vec<_> = hazards::checked(&system.program, options.tolerated).collect();
-    let mut unfair: Vec<Bound> = options.assertions.iter().map(|assertion| assertion.as_formula(system)).collect();
-    unfair.push(scan_ends::formula(system));
-    unfair.extend(hazards.iter().map(|&hazard| hazards::formula(system, hazard)));
-    let count = demands.len() + unfair.len();
-    let (judged, reason) = watched(watch, &done(graph), |stopping| {
-        let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget, stopping };
-        let outcomes = demands.par_iter().map(|demand| match demand {
+    let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget };
+    told.begin(|| report(system, requirements, options, graph, left_out.clone()));
+    let outcomes = requirements.par_iter().enumerate().map(|(position, asked)| {
+        let outcome = match &asked.1 {
             Demand::Formula(formula) => judge.outcome(formula),
             Demand::Possible(formula) => judge.outcome_of_possibility(formula),
             Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
-        });
-        let mut outcomes: Vec<Outcome> = outcomes.collect();
-        let of_all_runs = Judge { fair: None, ..judge };
-        outcomes.extend(unfair.iter().map(|formula| of_all_runs.outcome(formula)));
-        outcomes
+        };
+        told.put(position, || answer(system, asked, options, outcome.clone()));
+        outcome
     });
-    let mut outcomes = explained(judged, reason, count);
-    let mut unfair = outcomes.split_off(demands.len()).into_iter();
-    let asserted: Vec<Answer> =
-        options.assertions.iter().zip(&mut unfair).map(|(of, outcome)| asserted::answer(of, outcome)).collect();
-    let answers = answers(system, requirements, options, outcomes).into_iter().chain(asserted).collect();
-    let ends: Vec<Answer> = unfair.next().map(scan_ends::answer).into_iter().collect();
-    let hazards = hazards.into_iter().zip(unfair).map(|(hazard, outcome)| hazards::answer(hazard, outcome));
-    let checks = ends.into_iter().chain(hazards).collect();
+    // What must be so whenever control comes somewhere, and the checks, are about all runs.
+    let unfair = Judge { fair: None, ..judge };
+    let asserted = options.assertions.iter().map(|assertion| {
+        let outcome = unfair.outcome(&assertion.as_formula(system));
+        asserted::answer(assertion, outcome)
+    });
+    let answers = answers(system, requirements, options, outcomes.collect()).into_iter().chain(asserted).collect();
+    let ends = std::iter::once(scan_ends::answer(unfair.outcome(&scan_ends::formula(system))));
+    let hazards = hazards::checked(&system.program, options.tolerated)
+        .map(|hazard| hazards::answer(hazard, unfair.outcome(&hazards::formula(system, hazard))));
+    let checks = ends.chain(hazards).collect();
     Report { answers, checks, ..report(system, requirements, options, graph, left_out) }
 }
 
@@ -278,24 +288,15 @@ pub(super) struct Judge<'a> {
     pub fair: Option<&'a Fair<'a>>,
     /// What following a formula along the paths may use.
     pub budget: Budget,
-    /// Whether nobody waits for outcomes any more.
-    pub stopping: &'a AtomicBool,
 }
 
 impl Judge<'_> {
-    fn is_stopped(&self) -> bool {
-        self.stopping.load(Ordering::Relaxed)
-    }
-
     fn outcome(&self, formula: &Bound) -> Outcome {
-        if self.is_stopped() {
-            return STOPPED;
-        }
         if let Bound::Ltl(path) = formula {
             return self.outcome_on_paths(path);
         }
         let Self { graph, .. } = *self;
-        let Some(labelled) = self.labelled(formula) else { return STOPPED };
+        let labelled = self.labelled(formula);
         match self.broken(&labelled) {
             Some(Outcome::Violated(witness, why)) => {
                 let why = why.map(|mut why| {
@@ -319,13 +320,13 @@ impl Judge<'_> {
         }
     }
 
-    /// The states that satisfy a formula, and its negation; nothing if nobody waits for them.
-    pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Option<Labelled<'f>> {
+    /// The states that satisfy a formula, and its negation.
+    pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Labelled<'f> {
         let mut dag = Dag::default();
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
         let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
-        let labels = label_until(self.graph, &dag, &holds, self.fair.map(|fair| &fair.paths), self.stopping)?;
-        Some(Labelled { formula, dag, yes, no, labels })
+        let labels = label(self.graph, &dag, &holds, self.fair.map(|fair| &fair.paths));
+        Labelled { formula, dag, yes, no, labels }
     }
 
     /// A run from an initial state in which a node holds, and a run that counts begins, if there is one.
@@ -357,9 +358,6 @@ impl Judge<'_> {
 
     /// That a formula holds, and whether its premises occur.
     pub(super) fn holds(&self, formula: &Bound, witness: Option<Witness>) -> Outcome {
-        if self.is_stopped() {
-            return STOPPED;
-        }
         let paths = self.fair.map(|fair| &fair.paths);
         let occurrence = whole(self.graph).map(|graph| occurrence(self.view, graph, paths, formula)).transpose();
         match occurrence {

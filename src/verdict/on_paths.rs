@@ -12,7 +12,7 @@ use crate::witness::Holds;
 impl Judge<'_> {
     /// Whether a formula of LTL holds on all paths.
     pub(super) fn outcome_on_paths(&self, path: &Path<Bound>) -> Outcome {
-        let Self { view, graph, fair, budget, .. } = *self;
+        let Self { view, graph, fair, budget } = *self;
         let none = Constraints::default();
         let constraints = fair.map_or(&none, |fair| fair.paths.constraints());
         let is_true = match search(graph, path, constraints, &|atom| states_where(view, atom), budget) {

@@ -1,7 +1,7 @@
 //! Judgements on what is possible: that some run from power-on shows it.
 
 use super::Outcome;
-use super::check::{Judge, Labelled, STOPPED, disagreed, is_existential};
+use super::check::{Judge, Labelled, disagreed, is_existential};
 use super::failing::what_is_missing;
 use crate::logic::Bound;
 
@@ -10,7 +10,7 @@ impl Judge<'_> {
     /// violated if it is false in all of them.
     pub(super) fn outcome_of_possibility(&self, formula: &Bound) -> Outcome {
         let Self { graph, .. } = *self;
-        let Some(labelled) = self.labelled(formula) else { return STOPPED };
+        let labelled = self.labelled(formula);
         match self.shown(&labelled, labelled.yes) {
             Some(Ok((witness, _))) => return self.holds(formula, Some(witness)),
             Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),

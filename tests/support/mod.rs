@@ -23,6 +23,7 @@ pub mod random_graph;
 pub mod random_model;
 pub mod random_net;
 pub mod random_program;
+pub mod random_wide_blocks;
 pub mod random_wide_body;
 pub mod random_wide_program;
 pub mod random_wide_value;

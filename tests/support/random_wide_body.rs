@@ -71,7 +71,11 @@ impl Writer<'_, '_> {
     fn assignment(&mut self) {
         let written: Vec<Of> = self.scope.entries.iter().filter(|entry| entry.written).map(|entry| entry.of).collect();
         let of = if written.is_empty() { BOOL } else { self.choices.of(&written) };
-        self.value(of, 0);
+        if self.scope.plain {
+            self.load(of);
+        } else {
+            self.value(of, 0);
+        }
         for _ in 0..1 + self.choices.pick(2) {
             if let Some(place) = self.place(of, true) {
                 let operator = if is_bits(of) && self.choices.pick(4) == 0 { "STN" } else { "ST" };
@@ -193,13 +197,15 @@ impl Writer<'_, '_> {
         if self.choices.pick(3) > 0 {
             return;
         }
-        // Often a variable that the call reads.
+        // Often a variable that the call reads or writes.
         let is_written = |place: &str| {
             let mut fits =
                 self.scope.entries.iter().filter(|entry| entry.written && entry.of == BOOL && entry.ranges.is_empty());
             fits.any(|entry| format!("{}{}", entry.base, entry.member) == place)
         };
-        let read = list.iter().filter_map(|argument| Some(argument.split_once(" := ")?.1.to_owned()));
+        let read = list
+            .iter()
+            .filter_map(|argument| Some(argument.split_once(" := ").or(argument.split_once(" => "))?.1.to_owned()));
         let read: Vec<String> = read.filter(|place| is_written(place)).collect();
         let place = match read.as_slice() {
             [_, ..] if self.choices.flag() => Some(read[self.choices.pick(read.len())].clone()),

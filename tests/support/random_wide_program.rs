@@ -5,6 +5,7 @@
 use petril::semantics::{Kind, Type};
 
 use super::random_flat::Choices;
+use super::random_wide_blocks::standard;
 use super::random_wide_body::body;
 
 /// The type of an elementary value.
@@ -16,7 +17,7 @@ pub enum Of {
 
 pub const BOOL: Of = Of::Plain(Type::BOOL);
 pub const COLOURS: [&str; 3] = ["Red", "Green", "Blue"];
-const PLAIN_INT: Of = Of::Plain(Type::new(Kind::Signed, 16));
+pub const PLAIN_INT: Of = Of::Plain(Type::new(Kind::Signed, 16));
 
 impl Of {
     pub fn name(self) -> String {
@@ -72,6 +73,8 @@ pub struct Scope {
     pub rows: Vec<String>,
     /// `VAR … END_VAR` of loops, as many as the body needs.
     pub loops: usize,
+    /// Whether values are only moved, so that variables need few bits.
+    pub plain: bool,
 }
 
 impl Scope {
@@ -98,7 +101,7 @@ pub fn literal(choices: &mut Choices<'_>, of: Of, anchored: bool) -> String {
     match ty.kind {
         _ if ty.is_bool() => if pattern == 1 { "TRUE" } else { "FALSE" }.to_owned(),
         // Often a few scans.
-        Kind::Time if choices.flag() => format!("T#{}ms", choices.of(&[0, 10, 20, 30, 40, 50, 80, 256])),
+        Kind::Time if choices.flag() => format!("T#{}ms", choices.of(&[0, 10, 20, 21, 30, 40, 41, 256])),
         Kind::Time => format!("{}#{number}ms", choices.of(&["T", "TIME", "t"])),
         Kind::Bits if anchored => format!("{ty}#16#{pattern:X}"),
         Kind::Bits => match choices.pick(3) {
@@ -124,7 +127,8 @@ pub fn text(choices: &mut Choices<'_>) -> String {
     let global = Of::Plain(choices.ty());
     text += &format!("VAR_GLOBAL g0 : {} := {}; END_VAR\n", global.name(), literal(choices, global, false));
     text += "VAR_GLOBAL late : TON; END_VAR\nVAR_GLOBAL CONSTANT limit : USINT := 3; END_VAR\n";
-    let mut making = Making { choices, types: [element, other].map(Of::Plain), global, units: Vec::new() };
+    let plain = choices.pick(4) == 0;
+    let mut making = Making { choices, plain, types: [element, other].map(Of::Plain), global, units: Vec::new() };
     for number in 0..making.choices.pick(3) {
         text += &making.function(number);
     }
@@ -141,6 +145,7 @@ pub fn text(choices: &mut Choices<'_>) -> String {
 
 struct Making<'c, 'n> {
     choices: &'c mut Choices<'n>,
+    plain: bool,
     /// Of the members `n` and `m` of a `Pair`.
     types: [Of; 2],
     global: Of,
@@ -159,7 +164,7 @@ impl Making<'_, '_> {
     /// What units may call.
     fn scope(&self) -> Scope {
         let functions = self.units.iter().filter(|unit| unit.result.is_some()).cloned().collect();
-        Scope { functions, ..Scope::default() }
+        Scope { functions, plain: self.plain, ..Scope::default() }
     }
 
     /// `VAR_INPUT x0 : INT; … END_VAR`
@@ -286,7 +291,16 @@ impl Making<'_, '_> {
             let small = Of::Plain(Type::new(Kind::Unsigned, 8));
             [("limit", false), ("few", false), ("kept", true)].map(|(name, written)| scope.entry(name, small, written));
         }
-        let body = body(self.choices, &mut scope, 5);
+        let mut compared = String::new();
+        if self.choices.pick(3) == 0 {
+            text += "VAR_INPUT gauge : SINT; END_VAR VAR_OUTPUT high : BOOL; END_VAR\n";
+            let (operator, number) = (self.choices.of(&["GT", "GE", "EQ", "NE", "LE", "LT"]), self.choices.pick(8));
+            compared = match self.choices.flag() {
+                true => format!("LD gauge\n{operator} {number}\nST high\n"),
+                false => format!("LD SINT#{number}\n{operator} gauge\nST high\n"),
+            };
+        }
+        let body = compared + &body(self.choices, &mut scope, 5);
         format!("PROGRAM random\n{text}{}{body}END_PROGRAM\n", loops(&scope))
     }
 
@@ -380,6 +394,10 @@ impl Making<'_, '_> {
                 }
             }
         }
+        if self.choices.pick(8) == 0 {
+            text += "VAR delays : ARRAY [1..2] OF TON; END_VAR\n";
+            standard().iter().filter(|unit| unit.name == "TON").for_each(|unit| scope.instance("delays[2]", unit));
+        }
         if self.choices.pick(3) == 0 {
             let units = standard();
             let unit = &units[self.choices.pick(units.len())];
@@ -409,32 +427,4 @@ impl Scope {
 
 fn loops(scope: &Scope) -> String {
     (0..scope.loops).map(|i| format!("VAR turn{i} : USINT; END_VAR\n")).collect()
-}
-
-/// The standard function blocks, those without timers more often.
-fn standard() -> Vec<Unit> {
-    let unit = |name: &str, inputs: &[(&str, Of)], outputs: &[(&str, Of)]| {
-        let list = |list: &[(&str, Of)]| list.iter().map(|&(name, of)| (name.to_owned(), of)).collect();
-        Unit { name: name.to_owned(), result: None, inputs: list(inputs), outputs: list(outputs), in_out: None }
-    };
-    let (time, int) = (Of::Plain(Type::TIME), PLAIN_INT);
-    let timer = |name| unit(name, &[("IN", BOOL), ("PT", time)], &[("Q", BOOL), ("ET", time)]);
-    let edge = |name| unit(name, &[("CLK", BOOL)], &[("Q", BOOL)]);
-    let counter = |name, inputs: &[(&str, Of)]| unit(name, inputs, &[("Q", BOOL), ("CV", int)]);
-    vec![
-        unit("SR", &[("S1", BOOL), ("R", BOOL)], &[("Q1", BOOL)]),
-        unit("RS", &[("S", BOOL), ("R1", BOOL)], &[("Q1", BOOL)]),
-        edge("R_TRIG"),
-        edge("F_TRIG"),
-        counter("CTU", &[("CU", BOOL), ("R", BOOL), ("PV", int)]),
-        counter("CTD", &[("CD", BOOL), ("LD", BOOL), ("PV", int)]),
-        unit(
-            "CTUD",
-            &[("CU", BOOL), ("CD", BOOL), ("R", BOOL), ("LD", BOOL), ("PV", int)],
-            &[("QU", BOOL), ("QD", BOOL), ("CV", int)],
-        ),
-        timer("TON"),
-        timer("TOF"),
-        timer("TP"),
-    ]
 }

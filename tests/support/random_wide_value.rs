@@ -76,9 +76,9 @@ impl Writer<'_, '_> {
         let word = match self.choices.pick(9) {
             6 if of == BOOL => {
                 let of = self.some();
-                arguments = vec![("IN1", of), ("IN2", of), ("IN3", of)];
+                arguments = vec![("IN1", of), ("IN2", of), ("IN3", of), ("IN4", of)];
                 let pair = self.choices.flag() || of == Of::Colour;
-                arguments.truncate(if pair { 2 } else { 3 });
+                arguments.truncate(if pair { 2 } else { 4 });
                 self.choices.of(if of == Of::Colour {
                     &["EQ", "NE"]
                 } else if pair {

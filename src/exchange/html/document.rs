@@ -133,7 +133,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
         "verdict": answer.outcome.verdict().word(),
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
         "formula": answer.formula,
-        "runs": runs(answer).map(|(purpose, witness)| all.run(purpose, witness)).collect::<Vec<_>>(),
+        "runs": runs(answer).map(|(purpose, witness)| all.run(answer, purpose, witness)).collect::<Vec<_>>(),
     });
     let mut set = |member: &str, value: Option<Value>| {
         if let Some(value) = value {

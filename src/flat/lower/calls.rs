@@ -7,8 +7,8 @@ use super::places::Address;
 use super::{Frame, Label, Lowering};
 use crate::flat::{Instruction, Operand, Target};
 use crate::semantics::{
-    self, Call, Callee, Condition, Enable, Feed, FeedSource, Place, Pou, PouId, PouKind, Role, Scalar, Section, Shape,
-    Type, VarId,
+    Call, Callee, Condition, Enable, Feed, FeedSource, Place, Pou, PouId, PouKind, Role, Scalar, Section, Shape, Type,
+    VarId,
 };
 use crate::source::Span;
 
@@ -153,7 +153,7 @@ impl<'p> Lowering<'p> {
     }
 
     /// The variables of an instance: its own, those that begin anew, and global ones.
-    fn instance(&mut self, frame: &Frame<'p>, id: PouId, place: &semantics::Place, span: Span) -> Vec<Option<Address>> {
+    fn instance(&mut self, frame: &Frame<'p>, id: PouId, place: &Place, span: Span) -> Vec<Option<Address>> {
         let base = direct(self.address(frame, place, None, span)).0;
         let mut variables = self.own_variables(id);
         for (position, variable) in self.pou(id).variables.iter().enumerate() {

@@ -46,6 +46,10 @@ fn bodies_that_are_right() {
         "LD t; ADD T#5s; GE T#1m; ST b",
         "LD level; ADD 1; ST level",
         "LD n; EQ m; AND( n; EQ k; ); ST b",
+        // Calls in lists.
+        "CAL tally(by := (; twice(n := n); ADD 1; ), sum := m)",
+        "ADD(IN1 := (; twice(n := (; MAX(IN1 := n, IN2 := m); )); ADD( m; larger(a := n, b := m); ); ), IN2 := n); ST n",
+        "AND(NOT ENO => c, IN1 := b, IN2 := c); ST b",
         // Enumerations.
         "LD Manual; ST mode",
         "LD mode; EQ Mode#Automatic; ST b",
@@ -263,6 +267,46 @@ fn calls_are_written_out_to_a_size() {
     let last = "FUNCTION_BLOCK F40 VAR n : INT; END_VAR\nLD n\nADD 1\nST n\nEND_FUNCTION_BLOCK\n";
     let errors: Vec<Code> = findings(&format!("{blocks}{last}")).into_iter().map(|(code, _)| code).collect();
     assert_eq!(errors.iter().filter(|&&code| code == ProgramTooLarge).count(), 1, "{errors:?}");
+}
+
+/// Nothing says of which type a literal is, and operators of other types would give other values.
+#[test]
+fn literals_whose_type_makes_a_difference() {
+    let doubts = |body: &str| {
+        let found = findings(&format!("{AROUND}{}\nEND_PROGRAM", body.replace("; ", "\n")));
+        found.into_iter().filter(|(code, _)| *code == LiteralWithoutType).count()
+    };
+    for body in [
+        "LD 1; SHL 8; NE 0; ST b",
+        "SHL(IN := 1, N := 8); NE 0; ST b",
+        "shl(IN := 1, N := 8); NE 0; ST b",
+        "LD 100; ADD 100; GT 5; ST b",
+        "LD n; GT 0; ST b; LD 1; ROR 1; EQ 1; ST b",
+        "LDN 1; EQ 0; ST b",
+        "LD 6; XORN 3; EQ 0; ST b",
+        "LD 5; EQ( 2; ADD 3; ); ST b",
+        "LD 1; NOT; EQ 0; ST b",
+    ] {
+        assert_eq!(doubts(body), 1, "{body}");
+    }
+    for body in [
+        // A type is said somewhere.
+        "LD 1; SHL 8; ST w",
+        "LD 1; SHL n; AND w; NE 0; ST b",
+        "LD 1; ADD n; ST n",
+        "LD DINT#1; ADD 2; GT 2; ST b",
+        "LD 2; twice; ST n",
+        "LD 1; MUX 100, n; ST n",
+        // Every type gives the same value.
+        "LD 5; GT 3; ST b",
+        "LD 7; AND 3; EQ 3; ST b",
+        "LD 7; ANDN 3; EQ 4; ST b",
+        "LD 8; SHR 2; EQ 2; ST b",
+        "LD w; SHL 8; ST w",
+        "MAX(IN1 := 3, IN2 := 4); EQ 4; ST b",
+    ] {
+        assert_eq!(doubts(body), 0, "{body}");
+    }
 }
 
 /// Files that are right, with nothing to be said about them.
