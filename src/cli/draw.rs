@@ -8,7 +8,7 @@ use petril::{draw, semantics, syntax};
 
 use super::args::Draw;
 use super::console::Console;
-use super::{Failure, Outcome, SUCCESS, input, output};
+use super::{Failure, Outcome, SUCCESS, input, output, shown};
 
 /// The operators there are pictures of.
 const OPERATORS: [&str; 19] = [
@@ -32,7 +32,7 @@ pub fn run(arguments: &Draw, console: &Console) -> Outcome {
     let title = program.text(program.code[line].instruction);
     let system = System::new(program, Plant::default());
     output::write_text(&arguments.output, &draw::subnet(&system, line, Some(title.trim())).svg())?;
-    console.message(&format!("{}\n", arguments.output.display()));
+    console.message(&format!("{}\n", shown(&arguments.output)));
     Ok(SUCCESS)
 }
 

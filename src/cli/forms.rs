@@ -8,7 +8,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif, vcd};
 use petril::verdict::{Answer, Trace};
 
-use super::{Failure, output, reason};
+use super::{Failure, output, reason, shown};
 
 /// Files that a check writes beside its report.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -69,7 +69,7 @@ pub fn refuse_twice(forms: &Forms) -> Result<(), Failure> {
     let mut names = BTreeSet::new();
     match files.into_iter().flatten().find(|name| !names.insert(*name)) {
         Some(twice) => {
-            let message = format!("`{}` cannot be two things: give each form a file of its own", twice.display());
+            let message = format!("`{}` cannot be two things: give each form a file of its own", shown(twice));
             Err(Failure::Message(message))
         }
         None => Ok(()),
@@ -83,9 +83,8 @@ fn each_counterexample(
     checked: &Checked<'_>,
     content: impl Fn(&Answer, &Trace) -> Option<String>,
 ) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::Message(format!("cannot make the folder `{}`: {}", folder.display(), reason(&error)))
-    })?;
+    fs::create_dir_all(folder)
+        .map_err(|error| Failure::Message(format!("cannot make the folder `{}`: {}", shown(folder), reason(&error))))?;
     for answer in checked.answers() {
         for (_, witness) in runs(answer).filter(|(purpose, _)| *purpose == Purpose::Counterexample) {
             let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };

@@ -28,7 +28,7 @@ const NODES: usize = 20_000;
 pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let on = &arguments.on;
     let (located, _) = input::net(&on.model, console)?;
-    let net = located.net;
+    let net = if on.json { located.net } else { located.net.into_printable() };
     let watcher = Watcher::new(&on.limits)?;
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };

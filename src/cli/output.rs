@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use super::{Failure, reason};
+use super::{Failure, reason, shown};
 
 /// What writes a file, piece by piece: it may be larger than is good to hold in memory.
 type Content<'c> = &'c dyn Fn(&mut dyn Write) -> io::Result<()>;
@@ -14,7 +14,7 @@ type Content<'c> = &'c dyn Fn(&mut dyn Write) -> io::Result<()>;
 /// Writes a file: to a temporary beside it first, which then takes its name. So there is never half a file. A device or a
 /// pipe is not replaced but written to, a link is followed.
 pub fn write(path: &Path, content: Content<'_>) -> Result<(), Failure> {
-    let cannot = |error: Error| Failure::Message(format!("cannot write `{}`: {}", path.display(), reason(&error)));
+    let cannot = |error: Error| Failure::Message(format!("cannot write `{}`: {}", shown(path), reason(&error)));
     match fs::metadata(path) {
         Ok(known) if known.is_dir() => Err(cannot(ErrorKind::IsADirectory.into())),
         Ok(known) if known.is_file() => fs::canonicalize(path).and_then(|path| replace(&path, content)).map_err(cannot),

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::printable;
+
 /// A column: its head, and the side its cells lean to.
 #[derive(Clone, Debug)]
 pub struct Column {
@@ -12,12 +14,12 @@ pub struct Column {
 impl Column {
     /// A column of values.
     pub fn right(head: impl Into<String>) -> Self {
-        Self { head: head.into(), left: false }
+        Self { head: printable::line(&head.into()), left: false }
     }
 
     /// A column of text.
     pub fn left(head: impl Into<String>) -> Self {
-        Self { head: head.into(), left: true }
+        Self { head: printable::line(&head.into()), left: true }
     }
 
     fn pad(&self, cell: &str, width: usize) -> String {
@@ -39,9 +41,9 @@ impl Table {
         Self { groups: groups.into_iter().filter(|group| !group.is_empty()).collect(), rows: Vec::new() }
     }
 
-    /// Adds a row: one cell for each column.
+    /// Adds a row: one cell for each column. Each is one line of printable text, whatever is in it.
     pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(cells);
+        self.rows.push(cells.iter().map(|cell| printable::line(cell)).collect());
     }
 
     /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of

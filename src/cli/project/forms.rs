@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::run::Judged;
 use crate::cli::forms::{self, Forms, stamp};
-use crate::cli::{Failure, output, reason};
+use crate::cli::{Failure, output, reason, shown};
 
 /// Writes what was asked for about all programs that could be checked.
 pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
@@ -57,7 +57,7 @@ fn file(folder: &Path, name: &str, ending: &str) -> Result<PathBuf, Failure> {
     path.push(ending);
     let path = PathBuf::from(path);
     let parent = path.parent().unwrap_or(folder);
-    let cannot = |error| Failure::Message(format!("cannot make the folder `{}`: {}", parent.display(), reason(&error)));
+    let cannot = |error| Failure::Message(format!("cannot make the folder `{}`: {}", shown(parent), reason(&error)));
     fs::create_dir_all(parent).map_err(cannot)?;
     Ok(path)
 }

@@ -9,6 +9,7 @@ use std::thread;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use petril::exchange::json;
+use petril::printable::line;
 use petril::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -47,13 +48,13 @@ pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
     let checks: Vec<(Check, Entry)> = checks.collect::<Result<_, Failure>>()?;
     use_threads(&command.limits)?;
     listen();
-    let cache = if command.no_cache { None } else { Cache::open(Some(&path)) };
+    let cache = if command.no_cache { None } else { Cache::open(Some(&path), console) };
     let results = all(checks, cache.as_ref(), console);
     forms::write(&command.forms, &results)?;
     if command.json {
         console.print_json(document(&path, &results))?;
     } else {
-        console.print(&text(&path, &results, console))?;
+        console.print_report(&text(&path, &results, console), &console.provenance(), command.details)?;
     }
     Ok(worst(&results))
 }
@@ -86,18 +87,18 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} programs, {elapsed}: {wide_msg}") {
         bar.set_style(style);
     }
-    let (next, colour) = (AtomicUsize::new(0), console.colour());
+    let (next, colour, read) = (AtomicUsize::new(0), console.colour(), console.provenance().inputs);
     let (found, results) = mpsc::channel();
     // These threads wait for the ones that compute, of which there is one for each processor. A program that is checked never takes
     // up the work on another one in between.
     let workers = rayon::current_num_threads().min(checks.len());
     thread::scope(|scope| {
         for _ in 0..workers {
-            let (found, next, checks, bar) = (found.clone(), &next, &checks, &bar);
+            let (found, next, checks, bar, read) = (found.clone(), &next, &checks, &bar, &read);
             scope.spawn(move || {
                 while let Some((position, (arguments, entry))) = take(next, checks) {
-                    bar.set_message(entry.name.clone());
-                    let own = Console::holding(colour);
+                    bar.set_message(line(&entry.name));
+                    let own = Console::holding(colour, read.clone());
                     let watcher = Watcher::unseen(&arguments.limits);
                     let done = watcher.and_then(|watcher| checked(arguments, &entry.program, cache, &own, &watcher));
                     bar.inc(1);
@@ -115,7 +116,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
         let diagnostics = told.take_diagnostics();
         console.tell(told);
         if let Err(Failure::Message(message)) = &done {
-            console.error(&format!("{}: {message}", entry.name));
+            console.error(&format!("{}: {message}", line(&entry.name)));
         }
         Judged { name: entry.name, arguments, done, diagnostics }
     };
@@ -136,7 +137,7 @@ fn text(path: &Path, results: &[Judged], console: &Console) -> String {
         let Ok(Done { system, source, report, .. }) = done else { continue };
         if report.verdict() != Verdict::Holds {
             let text = Text { system, source, arguments, console };
-            out += &format!("\n{name}: {}\n{}", source.name(), text.failing(report));
+            out += &format!("\n{}\n{}", line(&format!("{name}: {}", source.name())), text.failing(report));
         }
     }
     out

@@ -22,8 +22,9 @@ impl Text<'_> {
             Outcome::Unknown(reason) => out += &self.told(&format!("because {reason}")),
             Outcome::Holds { vacuous, witness, example } => {
                 if let Some(vacuity) = vacuous {
-                    let doubt = self.console.paint("vacuously", Colour::Doubtful);
-                    out += &self.told(&format!("{doubt}: {}", vacuity.sentence()));
+                    let doubt = "vacuously";
+                    let told = self.told(&format!("{doubt}: {}", vacuity.sentence()));
+                    out += &told.replacen(doubt, &self.console.paint(doubt, Colour::Doubtful), 1);
                 }
                 if let Some(independence) = answer.independent {
                     out += &self.told(match independence {

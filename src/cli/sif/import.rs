@@ -8,11 +8,11 @@ use petril::exchange::sif::list;
 use super::args::SifImport;
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
-use crate::cli::{Failure, Outcome, SUCCESS, output, reason};
+use crate::cli::{Failure, Outcome, SUCCESS, output, reason, shown};
 
 pub fn run(arguments: &SifImport, console: &Console) -> Outcome {
     let path = &arguments.list;
-    let name = path.display();
+    let name = shown(path);
     let ending = path.extension().and_then(OsStr::to_str).map(str::to_lowercase);
     let rows = if ending.as_deref() == Some("xlsx") {
         let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {}", reason(&error)));

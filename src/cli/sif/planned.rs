@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
-use crate::cli::{Failure, progress};
+use crate::cli::{Failure, progress, shown};
 
 /// The positions of functions by their names; all of them if none is named.
 pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<usize>, Failure> {
@@ -63,7 +63,7 @@ pub fn read(
         plan.coverage = coverage_of(specification, plan.function, &tests, limits);
     });
     if plans.is_empty() {
-        return Err(Failure::Message(format!("`{}` has no test of these functions", path.display())));
+        return Err(Failure::Message(format!("`{}` has no test of these functions", shown(path))));
     }
     Ok(plans)
 }

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
 use petril::flat::{FlatProgram, Tolerated};
+use petril::printable::line;
 use petril::sif::proof::{self, Options, Subject, prove};
 use petril::sif::{Ending, Fate, Hunt, Mutant, Runner, Specification, Start, hunt, mutants};
 use petril::verdict::Verdict;
@@ -17,7 +18,7 @@ use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Failure, Outcome, SUCCESS, forms, output, progress};
+use crate::cli::{Failure, Outcome, SUCCESS, forms, output, progress, shown};
 
 /// So many tests or faults are told one by one.
 const MAX_TOLD: usize = 40;
@@ -59,6 +60,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         origin: origin.as_deref(),
         excluded: &excluded,
         run: Some(ran),
+        provenance: &console.provenance(),
     };
     if let Some(file) = &arguments.html {
         output::write_text(file, &html::write(&sheets))?;
@@ -72,7 +74,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     if arguments.json {
         console.print_json(json::document(&sheets))?;
     } else {
-        console.print(&text(&sheets, &ran, console))?;
+        console.print_report(&text(&sheets, &ran, console), sheets.provenance, false)?;
     }
     Ok(if is_passed { SUCCESS } else { ExitCode::from(1) })
 }
@@ -108,7 +110,7 @@ fn refuse_twice(arguments: &SifRun) -> Result<(), Failure> {
     let mut names = BTreeSet::new();
     let mut files = [&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten();
     files.find(|name| !names.insert(*name)).map_or(Ok(()), |twice| {
-        let message = format!("`{}` cannot be two things: give each form a file of its own", twice.display());
+        let message = format!("`{}` cannot be two things: give each form a file of its own", shown(twice));
         Err(Failure::Message(message))
     })
 }
@@ -116,7 +118,7 @@ fn refuse_twice(arguments: &SifRun) -> Result<(), Failure> {
 /// The whole report.
 fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
     let by = match (sheets.origin, sheets.plans.first()) {
-        (Some(file), _) => format!("from {file}"),
+        (Some(file), _) => format!("from {}", line(file)),
         (None, Some(plan)) => format!("by `{}`", plan.criterion.name()),
         (None, None) => String::new(),
     };
@@ -124,7 +126,7 @@ fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
         Start::PowerOn => "each from power-on",
         Start::Continued => "one after another without a restart",
     };
-    let (name, file) = (&ran.program().name, ran.source.name());
+    let (name, file) = (&ran.program().name, line(ran.source.name()));
     let mut out = format!("program `{name}` from {file}: tests {by}, {how}\n\n");
     if sheets.plans.len() <= MAX_TOLD {
         out += &summary(sheets, ran).within(console.output_width());
@@ -210,12 +212,12 @@ fn told(hunt: &Hunt, ran: &Ran<'_>) -> String {
     let left: Vec<_> =
         hunt.mutants.iter().filter(|(_, fate)| !matches!(fate, Fate::Found(..) | Fate::Equivalent)).collect();
     for (mutant, fate) in left.iter().take(MAX_TOLD) {
-        let line = ran.source.line_of(ran.program().code[mutant.line].span.start);
+        let at = ran.source.line_of(ran.program().code[mutant.line].span.start);
         let why = match fate {
             Fate::Undecided(why) => format!("not decided: {why}"),
             _ => "missed".to_owned(),
         };
-        out += &format!("{}:{line}: {} ({why})\n", ran.source.name(), mutant.fault);
+        out += &format!("{}: {} ({why})\n", line(&format!("{}:{at}", ran.source.name())), line(&mutant.fault));
     }
     if left.len() > MAX_TOLD {
         out += &format!("… and {} more\n", left.len() - MAX_TOLD);
