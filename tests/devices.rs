@@ -22,7 +22,7 @@ fn with(plant: &mut Plant, net: &str, name: &str) -> Result<(), Vec<(Code, usize
     let source = Source::new(format!("{name}.net"), net);
     let net = tina::read(&source).unwrap_or_else(|e| panic!("{e:#?}"));
     let place = |d: &petril::diagnostic::Diagnostic| (d.code, source.line_of(d.span().start));
-    plant.add(&net, &program()).map_err(|errors| errors.iter().map(place).collect())
+    plant.add(&net, &program()).map(drop).map_err(|errors| errors.iter().map(place).collect())
 }
 
 fn plant(net: &str) -> Plant {
@@ -89,11 +89,34 @@ fn paths_are_shortest_or_there_is_none() {
     assert_eq!(device.path(1, 1, |_| 1), Some(vec![]));
     assert_eq!(device.path(0, 2, |_| 0), None);
     assert_eq!(device.path(2, 1, |_| 1), None);
-    // Two ways, by a second place that says the same of the input: the shorter one is taken, though it is defined last.
-    let ways = self::plant("pl {a=0} (1)\ntr s {a=0} -> { a=0}\ntr t { a=0} -> {a=1}\ntr u {a=0} -> {a=1}\n");
+    // Two ways, by a second marking that says the same of the input: the shorter one is taken, though it is defined last.
+    let ways = "pl {a=0} (1)\npl new (1)\ntr s {a=0}?1 new -> worn\ntr t {a=0} worn?1 -> {a=1}\ntr u {a=0} new -> {a=1} worn\n";
+    let ways = self::plant(ways);
     let device = &ways.components[0];
-    assert_eq!(markings(device), [["n.a=0"], ["n. a=0"], ["n.a=1"]]);
+    assert_eq!(markings(device), [["n.a=0", "n.new"], ["n.a=0", "n.worn"], ["n.worn", "n.a=1"]]);
     assert_eq!(device.path(0, 2, |_| 1), Some(vec![2]));
+}
+
+/// What is probably mistyped: the line of each warning.
+#[test]
+fn doubtful_parts_are_told() {
+    let warnings = |net: &str| {
+        let source = Source::new("n.net", net);
+        let found = Plant::default().add(&tina::read(&source).unwrap(), &program()).unwrap();
+        found.iter().map(|d| (d.code, source.line_of(d.span().start))).collect::<Vec<_>>()
+    };
+    use Code::{PlantPlaceUndeclared as Undeclared, PlantTransitionDead as Dead};
+    let there_and_back = "pl {a=0} (1)\ntr t {a=0} -> {a=1}\ntr u {a=1} -> {a=0}\n";
+    assert_eq!(warnings(there_and_back), []);
+    assert_eq!(warnings("pl {a=0} (1)\ntr t {a=0} -> {a=1}\n"), [(Undeclared, 2)]);
+    assert_eq!(warnings("pl {a=0} (1)\npl {a=1}\ntr t {a=0} -> {a=1}\n"), []);
+    assert_eq!(warnings(&format!("{there_and_back}tr v {{a=1}} x -> {{a=0}}\n")), [(Dead, 4)]);
+    assert_eq!(warnings(&format!("{there_and_back}tr v {{a=1}} {{a=0}}?1 -> {{a=1}}\n")), [(Dead, 4)]);
+    // An output has one value at a time; a test of it in two spellings is one test.
+    assert_eq!(warnings(&format!("{there_and_back}tr v {{a=1}} {{q=1}}?1 {{q=0}}?1 -> {{a=0}}\n")), [(Dead, 4)]);
+    assert_eq!(warnings(&format!("{there_and_back}tr v {{a=1}} {{q=1}}?1 {{Q=TRUE}}?1 -> {{a=0}}\n")), []);
+    // Nothing leaves `{a=1}` but a loop.
+    assert_eq!(warnings("pl {a=0} (1)\ntr t {a=0} -> {a=1}\ntr u {a=1} -> {a=1}\n"), [(Undeclared, 2)]);
 }
 
 #[test]
@@ -109,7 +132,7 @@ fn markings_give_each_input_its_value() {
 #[test]
 fn each_check_finds_what_it_is_for() {
     use Code::*;
-    let cases: [(&str, &[(Code, usize)]); 20] = [
+    let cases: [(&str, &[(Code, usize)]); 23] = [
         ("pl {c=1} (1)\npl {a=1} (1)\n", &[(PlantVariableUnknown, 1)]),
         ("pl {c=1} (1)\npl {c=0}\npl {d=0}\n", &[(PlantVariableUnknown, 1), (PlantVariableUnknown, 3)]),
         ("pl {m=1} (1)\n", &[(PlantVariableUnfit, 1)]),
@@ -129,6 +152,9 @@ fn each_check_finds_what_it_is_for() {
         ("pl {a=0} (1)\ntr t {a=0} -> x\n", &[(PlantInputAmbiguous, 1)]),
         ("pl {a=0} (1)\npl x (1)\ntr t x {a=0}?1 -> {a=1}\n", &[(PlantInputAmbiguous, 3)]),
         ("pl {a=0} (1)\npl {a=1} (1)\n", &[(PlantInputAmbiguous, 2)]),
+        ("pl {a=0} (1)\ntr t {a=0} -> {A=1}\ntr u {a=1} -> {a=0}\n", &[(PlantValuationTwice, 3)]),
+        ("pl {a=0} (1)\ntr t {a=0} -> {a=TRUE}\ntr u { a=1} -> {a=0}\n", &[(PlantValuationTwice, 3)]),
+        ("pl {a=0,b=0} (1)\ntr t {a=0,b=0} -> {a=1,b=0}\ntr u {b=0,a=1} -> {a=0,b=0}\n", &[(PlantValuationTwice, 3)]),
         ("pl {a=0} (1)\npl {b=0}\ntr t {a=0} {r=1}?1 -> x\n", &[(PlantInputAmbiguous, 1), (PlantInputAmbiguous, 2)]),
     ];
     for (net, expected) in cases {

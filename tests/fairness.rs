@@ -3,6 +3,8 @@
 
 mod support;
 
+use petril::explore::Budget;
+use petril::flat::Tolerated;
 use petril::logic::{
     Bound, FairnessAssumption, View, always_scanning, bind_fairness, bind_requirement, parse_fairness,
     parse_requirement,
@@ -228,6 +230,34 @@ fn the_transition_view_has_the_same_assumptions() {
         "a PLC that stands still for ever does not read `off`"
     );
     assert_eq!(verdict(&plant, "AG (q -> AF !q)"), Verdict::Holds);
+}
+
+/// Two scans are all there are: in the third a number does not fit its type. So no run is known on which q comes again and again,
+/// and what holds on all runs that count holds on none.
+#[test]
+fn nothing_holds_on_a_part_of_the_states_before_a_run_that_counts_is_known() {
+    let text = "PROGRAM p VAR n : SINT := 126; END_VAR VAR_OUTPUT q : BOOL; END_VAR
+LD n
+ADD 1
+ST n
+LD FALSE
+ST q
+END_PROGRAM";
+    let system = system(text, &[]);
+    let fairness = assumed(&system, View::Scan, &["again and again q"]);
+    let verdict = |formula: &str, states: u64, overflow: bool| {
+        let requirement = parse_requirement("r", &Source::new("formula", formula)).unwrap();
+        let demand = bind_requirement(&requirement, &system, View::Scan).unwrap();
+        let tolerated = Tolerated { overflow, ..Tolerated::default() };
+        let budget = Budget { states, ..Budget::default() };
+        let options = Options { fairness: fairness.clone(), tolerated, budget, ..Options::default() };
+        check(&system, &[(requirement, demand)], &options, &mut |_| None).answers[0].outcome.verdict()
+    };
+    for formula in ["LTL X !q", "LTL !q", "LTL TRUE", "AX !q", "!q", "TRUE", "!EX q"] {
+        assert_eq!(verdict(formula, 3, true), Verdict::Unknown, "{formula}, on three states");
+        assert_eq!(verdict(formula, u64::MAX, false), Verdict::Unknown, "{formula}, before an error");
+        assert_eq!(verdict(formula, u64::MAX, true), Verdict::Unknown, "{formula}, on all states");
+    }
 }
 
 /// Formulas of CTL and of LTL over the variables of random programs.

@@ -1,16 +1,23 @@
 //! Formulas about paths: what the search finds, or does not find, is what the textbook says, on random graphs whole and in part,
-//! with and without constraints on paths.
+//! with and without constraints on paths. On random programs, verdicts are those of the textbook on the whole graph, however much of
+//! it was explored, whether formulas are of LTL or of CTL.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod support;
 
-use petril::explore::Budget;
-use petril::logic::{Bound, Dag, Path, Quantifier, Search, label, search};
+use petril::explore::{Budget, ScanSpace, explore};
+use petril::logic::{
+    Bound, Constraint, Dag, Demand, FairnessAssumption, Path, Quantifier, Requirement, ScanValuation, Search, label,
+    parse_requirement, search,
+};
 use petril::semantics::VarId;
+use petril::source::Source;
+use petril::translate::System;
+use petril::verdict::{Options, Verdict, check};
 use proptest::prelude::*;
 use support::naive_ltl::violating;
-use support::random_formula;
 use support::random_graph::{Given, Masks, given_in_part, given_of, masks};
+use support::{random_formula, random_program};
 
 use Quantifier::All;
 
@@ -97,6 +104,145 @@ fn label_says(given: &Given, graph: &petril::explore::Graph, masks: &Masks, form
 
 fn until(weak: bool, f: Bound, g: Bound) -> Bound {
     Bound::Until { quantifier: All, weak, hold: Box::new(f), release: Box::new(g) }
+}
+
+/// The whole graph of a program's scans, as the textbook takes it.
+struct Whole {
+    successors: Vec<Vec<usize>>,
+    initial: Vec<usize>,
+    /// The variables of random programs, by state.
+    values: Vec<[bool; 8]>,
+}
+
+impl Whole {
+    /// Nothing if some scan never ends, or the masks of the textbook do not hold all states.
+    fn of(system: &System) -> Option<Self> {
+        let space = ScanSpace::new(system);
+        let graph = explore(&space, Budget::default(), &mut |_| None);
+        let value = |id: u32, v| Bound::Variable(VarId(v)).holds_in(&ScanValuation(&space, graph.state(id))).unwrap();
+        (graph.is_complete() && graph.len() <= 64).then(|| Self {
+            successors: graph.ids().map(|id| graph.successors(id).iter().map(|&to| to as usize).collect()).collect(),
+            initial: graph.initial().iter().map(|&id| id as usize).collect(),
+            values: graph.ids().map(|id| std::array::from_fn(|v| value(id, v))).collect(),
+        })
+    }
+
+    fn holds(&self, formula: &Bound, state: usize) -> bool {
+        match formula {
+            Bound::Variable(variable) => self.values[state][variable.0],
+            Bound::Truth(value) => *value,
+            Bound::Not(f) => !self.holds(f, state),
+            _ => unreachable!("there are no others"),
+        }
+    }
+
+    /// The verdict by the definition: holds, is violated, or says nothing since from some initial state no path counts.
+    fn verdict(&self, formula: &Formula, assumed: &FairnessAssumption) -> Option<Verdict> {
+        let mask = |goal: &Bound| {
+            (0..self.values.len()).filter(|&s| self.holds(goal, s)).fold(0, |mask: u64, s| mask | 1 << s)
+        };
+        let (mut weak, mut strong) = (Vec::new(), Vec::new());
+        for Constraint { premise, goal, .. } in &assumed.constraints {
+            match premise {
+                Some(premise) => strong.push((mask(premise), mask(goal))),
+                None => weak.push(mask(goal)),
+            }
+        }
+        let number = |atom: &Bound| match atom {
+            Bound::Variable(variable) => variable.0,
+            _ => 8 + usize::from(*atom == Bound::Truth(true)),
+        };
+        let truth = |atom: usize, state: usize| if atom < 8 { self.values[state][atom] } else { atom == 9 };
+        let violating = |formula: &Formula| violating(&self.successors, formula, (&weak, &strong), 3, &number, &truth);
+        let (violated, counting) = (violating(formula)?, violating(&Path::State(Bound::Truth(false)))?);
+        Some(match self.initial.as_slice() {
+            initial if initial.iter().any(|&s| violated[s]) => Verdict::Violated,
+            initial if initial.iter().all(|&s| counting[s]) => Verdict::Holds,
+            _ => Verdict::Unknown,
+        })
+    }
+}
+
+/// Two variables of random programs, or constants, perhaps negated; and what runs do again and again.
+fn constraint() -> impl Strategy<Value = Constraint> {
+    let literal = || {
+        ((0..8_usize), any::<bool>()).prop_map(|(v, negated)| {
+            let variable = Bound::Variable(VarId(v));
+            if negated { Bound::Not(Box::new(variable)) } else { variable }
+        })
+    };
+    (proptest::option::of(literal()), literal()).prop_map(|(premise, goal)| Constraint {
+        premise,
+        goal,
+        words: String::new(),
+    })
+}
+
+/// Formulas of LTL, some with the formula of CTL that says the same.
+fn said_twice() -> impl Strategy<Value = (Formula, Option<Bound>)> {
+    let atoms = || (0..8).map(|v| Bound::Variable(VarId(v))).collect::<Vec<_>>();
+    let (yes, no) = (Bound::Truth(true), Bound::Truth(false));
+    let pair = (proptest::sample::select(atoms()), proptest::sample::select(atoms()), 0..7_usize);
+    let pair = pair.prop_map(move |(a, b, which)| {
+        let [p, q] = [&a, &b].map(|f| Box::new(Path::State(f.clone())));
+        let not = |f: &Bound| Bound::Not(Box::new(f.clone()));
+        let next = |f: Bound| Bound::Next(All, Box::new(f));
+        match which {
+            0 => (Path::Globally(p), until(true, a, no.clone())),
+            1 => (Path::Finally(q), until(false, yes.clone(), b)),
+            2 => (Path::Until(p, q), until(false, a, b)),
+            3 => (Path::WeakUntil(p, q), until(true, a, b)),
+            4 => (Path::Next(Box::new(Path::Not(p))), next(not(&a))),
+            5 => (Path::Next(Box::new(Path::Next(p))), next(next(a))),
+            _ => (Path::Not(p), not(&a)),
+        }
+    });
+    prop_oneof![
+        pair.prop_map(|(path, formula)| (path, Some(formula))),
+        random_formula::path(atoms()).prop_map(|path| (path, None)),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: support::agreement::programs(300), max_global_rejects: 100_000, ..ProptestConfig::default() })]
+
+    /// A verdict on a part of the states is one on all of them, and a verdict on all of them is the textbook's.
+    #[test]
+    fn verdicts_on_parts_of_programs(
+        text in random_program::text(4),
+        device in proptest::option::of(random_program::device()),
+        formulas in proptest::collection::vec(said_twice(), 6),
+        constraints in proptest::collection::vec(constraint(), 0..3),
+        states in 1..24_u64,
+    ) {
+        let system = random_program::system(support::program(&text), device.as_ref());
+        let Some(whole) = Whole::of(&system) else { return Err(TestCaseError::reject("too large")) };
+        let words = "assumed".to_owned();
+        let assumed = FairnessAssumption { words, constraints, speaks_of_time: false };
+        let named = parse_requirement("r", &Source::new("formula", "TRUE")).unwrap();
+        let asked = |formula: Bound| (named.clone(), Demand::Formula(formula));
+        let requirements: Vec<(Requirement, Demand)> = formulas
+            .iter()
+            .flat_map(|(path, twin)| {
+                let path = Bound::Ltl(Box::new(path.clone()));
+                [asked(path.clone()), asked(twin.clone().unwrap_or(path))]
+            })
+            .collect();
+        let judged = |states: u64| {
+            let budget = Budget { states, ..Budget::default() };
+            let options = Options { fairness: vec![assumed.clone()], budget, ..Options::default() };
+            let report = check(&system, &requirements, &options, &mut |_| None);
+            report.answers.iter().map(|answer| answer.outcome.verdict()).collect::<Vec<_>>()
+        };
+        let (part, all) = (judged(states), judged(u64::MAX));
+        for (i, (path, _)) in formulas.iter().enumerate() {
+            let Some(expected) = whole.verdict(path, &assumed) else { continue };
+            prop_assert_eq!(all[2 * i], expected, "of LTL, {:?}", path);
+            prop_assert_eq!(all[2 * i + 1], expected, "of CTL, {:?}", path);
+            prop_assert_eq!(part[2 * i], part[2 * i + 1], "LTL and CTL, {:?}", path);
+            prop_assert!(part[2 * i] == Verdict::Unknown || part[2 * i] == expected, "on a part, {:?}", path);
+        }
+    }
 }
 
 proptest! {

@@ -35,6 +35,8 @@ enum F {
     SoFar(Box<F>),
     Since(Box<F>, Box<F>),
     Held(Box<F>, usize),
+    HeldForNoTime(Box<F>),
+    WithinNone(Box<F>),
 }
 
 impl F {
@@ -54,6 +56,8 @@ impl F {
             F::SoFar(f) => format!("so_far({})", f.text()),
             F::Since(f, g) => format!("({} since {})", f.text(), g.text()),
             F::Held(f, n) => format!("held({}, {n} scans)", f.text()),
+            F::HeldForNoTime(f) => format!("held({}, T#0ms)", f.text()),
+            F::WithinNone(f) => format!("({} within 0 scans)", f.text()),
         }
     }
 
@@ -74,7 +78,8 @@ impl F {
             F::Once(f) => (1..=at).any(|i| f.at(run, i)),
             F::SoFar(f) => (1..=at).all(|i| f.at(run, i)),
             F::Since(f, g) => (1..=at).any(|i| g.at(run, i) && (i + 1..=at).all(|j| f.at(run, j))),
-            F::Held(f, 0) => f.at(run, at),
+            F::HeldForNoTime(f) => at > 0 && f.at(run, at),
+            F::WithinNone(f) => f.at(run, at),
             F::Held(f, n) => at > *n && (at - n..=at).all(|i| f.at(run, i)),
         }
     }
@@ -97,6 +102,8 @@ fn formula(depth: u32) -> impl Strategy<Value = F> {
             one().prop_map(F::SoFar),
             (one(), one()).prop_map(|(f, g)| F::Since(f, g)),
             (one(), 0..3_usize).prop_map(|(f, n)| F::Held(f, n)),
+            one().prop_map(F::HeldForNoTime),
+            one().prop_map(F::WithinNone),
         ]
     })
 }

@@ -28,7 +28,7 @@ fn check(system: &System, names: &[&str], forms: [&str; 2]) -> (Verdict, Vec<Str
         let requirement = parse_requirement("r", &Source::new("r", form)).unwrap_or_else(|e| panic!("{form}: {e:#?}"));
         assert!(requirement.words.is_some(), "`{form}` is no pattern");
         match bind_requirement(&requirement, system, View::Scan) {
-            Ok(Demand::Formula(formula)) => formula.text(system),
+            Ok(demand @ (Demand::Formula(_) | Demand::Possible(_))) => demand.text(system).unwrap_or_default(),
             other => format!("{other:?}"),
         }
     });
@@ -130,6 +130,39 @@ fn reachability() {
     let sentence = "It is possible to have Motor at the end of a cycle.";
     // No run shows that no run does it; the one that is shown is the first state.
     pattern(["reachability(Motor)", sentence], &starter(), &never, &["Start", "Stop", "Motor"], &["000"]);
+}
+
+/// `EF a` is required after every first scan, `reachability(a)` of power-on: the first scan may shut the door.
+#[test]
+fn what_is_possible_from_power_on() {
+    // Whoever does not press Key in the first scan never can again.
+    let door = bools("Key", "Open, Late", "LD Late; JMPC end; LD Key; ST Open; end: LD TRUE; ST Late");
+    let told = |requirement: &str| report(&door, &format!("requirement r: {requirement};"));
+    let verdict = |requirement: &str| answer(&told(requirement), "r").outcome.verdict();
+    assert_eq!(verdict("EF Open"), Verdict::Violated);
+    assert_eq!(verdict("!AG !Open"), Verdict::Violated);
+    assert_eq!(verdict("AG !Open"), Verdict::Violated);
+    assert_eq!(verdict("reachability(Open & Key)"), Verdict::Holds);
+    assert_eq!(verdict("reachability(Open & Late & !Key)"), Verdict::Holds);
+    assert_eq!(verdict("reachability(Open & !Late)"), Verdict::Violated);
+    assert_eq!(verdict("It is possible to have Open at the end of a cycle."), Verdict::Holds);
+    let report = told("reachability(Open & !Key)");
+    let witness = answer(&report, "r").outcome.witness().expect("a run");
+    let petril::verdict::Trace::Scans(trace) = &witness.trace else { panic!("a run of scans") };
+    assert_eq!(values(&door, trace, &["Key", "Open"]), ["11", "01"]);
+    let report = told("EF Open");
+    let petril::verdict::Outcome::Violated(_, Some(why)) = &answer(&report, "r").outcome else {
+        panic!("with a reason")
+    };
+    let elsewhere = "After other first scans `EF Open` is true, but a requirement must be true after every first scan; \
+                     `reachability(Open)` asks whether some run from power-on comes there";
+    assert_eq!(why.wanted.last().map(String::as_str), Some(elsewhere));
+    // Where no first scan helps, nothing of the kind is said.
+    let report = told("EF (Open & !Late)");
+    let petril::verdict::Outcome::Violated(_, Some(why)) = &answer(&report, "r").outcome else {
+        panic!("with a reason")
+    };
+    assert!(!why.wanted.iter().any(|sentence| sentence.contains("other first scans")), "{why:?}");
 }
 
 #[test]

@@ -82,6 +82,42 @@ fn the_last_scan_is_told_line_by_line() {
     );
 }
 
+/// Two addresses that may be one place, a transition that never fires, a requirement about the first scan: each stands in every form of
+/// the report, not only among the messages of the command.
+#[test]
+fn what_a_verdict_rests_on_stands_in_every_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = "PROGRAM p\nVAR_INPUT a : BOOL; END_VAR\nVAR w AT %MW1 : WORD; b AT %MB1 : BYTE; END_VAR\n\
+                   VAR_OUTPUT q : BOOL; END_VAR\nLD 16#FF\nST w\nLD b\nEQ 0\nAND a\nST q\nEND_PROGRAM\n";
+    let plant = "net n\npl {a=0} (1)\ntr on {a=0} -> {a=1}\ntr off {a=1} never -> {a=0}\n";
+    fs::write(folder.path().join("p.il"), program).unwrap();
+    fs::write(folder.path().join("n.net"), plant).unwrap();
+    let check = ["check", "p.il", "--plant", "n.net", "-r", "!q | a"];
+    let files = ["--junit", "f.xml", "--sarif", "f.sarif", "--csv", "f.csv", "--html", "f.html"];
+    let told = petril(folder.path(), &[&check[..], &files[..]].concat());
+    let json = petril(folder.path(), &[&check[..], &["--json"]].concat());
+    assert_eq!((told.code, json.code), (0, 0), "{}", told.stderr);
+    let mut forms = vec![("text", told.stdout), ("json", json.stdout)];
+    forms.extend(
+        files[1..].iter().step_by(2).map(|file| (*file, fs::read_to_string(folder.path().join(file)).unwrap())),
+    );
+    for (form, text) in &forms {
+        let plain = text.replace("&apos;", "'").replace("\\\"", "\"").replace("\\u0026", "&");
+        for part in [
+            "every address is a place of its own, though on some controllers, `%MB1` lies in the same place as `%MW1`",
+            "`n.off` never fires: nothing enables it",
+            "it speaks of the end of the first scan only; for every scan, write `AG (!q | a)`",
+        ] {
+            assert!(plain.contains(part), "{form} lacks {part}\n{text}");
+        }
+        if *form != "text" {
+            for code in ["W0227", "W0413", "W0512"] {
+                assert!(text.contains(code), "{form} lacks {code}\n{text}");
+            }
+        }
+    }
+}
+
 /// Runs a check that writes every form, and gives the folder with the files.
 fn forms(arguments: &[String]) -> (Run, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
@@ -148,8 +184,14 @@ fn every_form_is_valid_and_says_the_same() {
         }
 
         let mut csv = csv::Reader::from_path(folder.path().join("report.csv")).unwrap();
-        let rows: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
+        let rows = csv.records().map(Result::unwrap);
+        let (rows, said): (Vec<_>, Vec<_>) = rows.partition(|row| ["requirement", "check"].contains(&&row[0]));
         assert_eq!(rows.len(), answers.len(), "{what}");
+        let of_kind = |kind: &str| said.iter().filter(|row| &row[0] == kind).map(|row| row[10].to_owned()).collect();
+        let assumed: Vec<String> = of_kind("assumption");
+        assert_eq!(Value::from(assumed), report["assumptions"], "{what}");
+        let warned: Vec<String> = of_kind("warning");
+        assert_eq!(warned.len(), report["diagnostics"].as_array().unwrap().len(), "{what}");
         for (row, answer) in rows.iter().zip(&answers) {
             assert_eq!((&row[1], &row[2]), (answer["name"].as_str().unwrap(), answer["verdict"].as_str().unwrap()));
             assert_eq!(&row[12], answer["formula"].as_str().unwrap());

@@ -7,6 +7,8 @@
 
 mod support;
 
+use std::collections::BTreeSet;
+
 use petril::diagnostic::any_error;
 use petril::flat::{FlatProgram, Hazard, Instruction, flatten};
 use petril::interpret::Machine;
@@ -16,6 +18,8 @@ use petril::syntax;
 use petril::translate::{Plant, System};
 use proptest::prelude::*;
 use support::agreement::{Inputs, agree, programs};
+use support::constructs::of_program;
+use support::indifference::indifferent;
 use support::random_flat::Choices;
 use support::random_wide_program::text;
 use support::reference::Reference;
@@ -73,7 +77,7 @@ fn refer(program: &Program, flat: &FlatProgram, scans: &[Inputs], text: &str) ->
     Ok(met)
 }
 
-/// Three scans with values that the inputs may have.
+/// Six scans with values that the inputs may have.
 fn inputs(system: &System, choices: &mut Choices<'_>) -> Vec<Inputs> {
     let mut value = |id: VarId| {
         let domain = system.domain(id);
@@ -82,14 +86,14 @@ fn inputs(system: &System, choices: &mut Choices<'_>) -> Vec<Inputs> {
         let others = usize::try_from(domain.size()).unwrap_or(usize::MAX);
         if is_allowed { pattern } else { domain.patterns().nth(pattern as usize % others).unwrap() }
     };
-    (0..3).map(|_| system.program.with_role(Role::Input).map(|id| (id, value(id))).collect()).collect()
+    (0..6).map(|_| system.program.with_role(Role::Input).map(|id| (id, value(id))).collect()).collect()
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(programs(300)))]
 
     #[test]
-    fn after_every_scan(numbers in proptest::collection::vec(any::<u32>(), 0..400), seed in proptest::collection::vec(any::<u32>(), 24)) {
+    fn after_every_scan(numbers in proptest::collection::vec(any::<u32>(), 0..400), seed in proptest::collection::vec(any::<u32>(), 48)) {
         let text = text(&mut Choices::new(&numbers));
         let (program, printed) = read(&text);
         let flat = flatten(&program);
@@ -99,25 +103,43 @@ proptest! {
         let system = System::new(flat.clone(), Plant::default());
         let scans = inputs(&system, &mut Choices::new(&seed));
         refer(&program, &flat, &scans, &text)?;
+        indifferent(&flat, &scans, &mut Choices::new(&numbers)).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
         let mut game = Game::new(system);
-        let met = agree(&mut game, &flat, &scans, STEPS).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
+        let met = agree(&mut game, &flat, &scans[..3], STEPS).map_err(|error| TestCaseError::fail(format!("{error}\n{text}")))?;
         prop_assert!(met.ended, "{}", text);
     }
+}
+
+/// Texts that are the same in every run.
+fn texts(count: usize) -> impl Iterator<Item = String> {
+    let mut generator = 7_u64;
+    let mut next = move || {
+        // Numerical Recipes.
+        generator = generator.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (generator >> 32) as u32
+    };
+    (0..count).map(move |_| {
+        let numbers: Vec<u32> = (0..400).map(|_| next()).collect();
+        text(&mut Choices::new(&numbers))
+    })
+}
+
+/// The random programs come to every construct of a list, and the list names all they come to.
+#[test]
+fn random_programs_come_to_every_construct() {
+    let mut found = BTreeSet::new();
+    texts(1500).for_each(|text| of_program(&read(&text).0, &mut found));
+    let listed: BTreeSet<String> = include_str!("support/constructs.txt").lines().map(str::to_owned).collect();
+    let missing: Vec<&String> = listed.difference(&found).collect();
+    let not_listed: Vec<&String> = found.difference(&listed).collect();
+    assert!(missing.is_empty() && not_listed.is_empty(), "missing: {missing:#?}\nnot listed: {not_listed:#?}");
 }
 
 /// The random programs come to everything there is: otherwise their agreement says little.
 #[test]
 fn random_programs_say_everything() {
-    let mut generator = 7_u64;
-    let mut next = || {
-        // Numerical Recipes.
-        generator = generator.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (generator >> 32) as u32
-    };
     let (mut all, mut hazards) = (String::new(), Vec::new());
-    for _ in 0..400 {
-        let numbers: Vec<u32> = (0..400).map(|_| next()).collect();
-        let text = text(&mut Choices::new(&numbers));
+    for text in texts(400) {
         let (program, _) = read(&text);
         let flat = flatten(&program);
         let mut machine = Machine::new(&flat);

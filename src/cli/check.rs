@@ -22,7 +22,7 @@ use super::console::Console;
 use super::input::Program;
 use super::progress::Watcher;
 use super::requirements::{Asked, Bound};
-use super::{Failure, Outcome, forms, input, project, report, watch};
+use super::{Failure, Outcome, forms, guard, input, project, report, watch};
 
 /// A program that was checked.
 pub struct Done {
@@ -100,6 +100,7 @@ pub fn checked(
     plants.extend(asked.plants());
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     let domains = asked.domains(&program, &plant);
+    guard::phase("composing the net");
     let mut system = System::with_domains(program, plant, domains);
     let Bound { requirements, assumptions, assertions, fairness_texts, mut fairness } =
         asked.bind(&system, view, console)?;
@@ -111,6 +112,7 @@ pub fn checked(
     if arguments.fair {
         fairness.push(always_scanning(&system));
     }
+    forms::refuse(&arguments.forms)?;
     let options = Options {
         view,
         fairness,
@@ -119,9 +121,10 @@ pub fn checked(
         assumptions,
         assertions,
     };
+    guard::phase("exploring");
     let started = Instant::now();
     let mut watch = |progress: &Progress| watcher.watch(progress);
-    let report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
+    let mut report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
         Some((cache, fingerprint)) => {
             let known = cache.recall(&fingerprint);
             let (report, now) = check_knowing(&system, &requirements, &options, known.as_ref(), &mut watch);
@@ -131,6 +134,10 @@ pub fn checked(
         None => check(&system, &requirements, &options, &mut watch),
     };
     watcher.finish();
+    let warnings = console.warnings();
+    report.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
+    report.warnings =
+        warnings.into_iter().map(|(code, place, message)| format!("{place}: {code}: {message}")).collect();
     console.has_options(&options_of(arguments));
     Ok(Done { system, source, report, provenance: console.provenance(), started })
 }

@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use super::args::When;
 use super::seen::{Seen, sha256};
-use super::{Failure, Outcome, SUCCESS, reason};
+use super::{Failure, Outcome, SUCCESS, guard, output, reason};
 
 /// How many diagnostics of one file are printed. The first ones are the ones to mend.
 pub const MAX_DIAGNOSTICS: usize = 100;
@@ -121,6 +121,7 @@ impl Console {
 
     /// A file was read, or could not be.
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
+        output::has_read(path);
         self.seen.borrow_mut().file(path, bytes);
     }
 
@@ -146,6 +147,15 @@ impl Console {
         }
     }
 
+    /// The warnings printed so far, each with its code, where it stands, and its message.
+    pub fn warnings(&self) -> Vec<(String, String, String)> {
+        let printed = self.printed.borrow();
+        let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let warnings = printed.iter().filter(|diagnostic| diagnostic["severity"] == "warning");
+        let place = |d: &Value| format!("{}:{}:{}", text(&d["file"]), d["line"], d["column"]);
+        warnings.map(|d| (text(&d["code"]), place(d), text(&d["message"]))).collect()
+    }
+
     /// Prints an error that has no place in a file. Its further lines are indented: none of them can pass for a line of its own.
     pub fn error(&self, message: &str) {
         let title = if self.errors_in_colour { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
@@ -164,7 +174,7 @@ impl Console {
     fn write(&self, text: &str) {
         match &self.held {
             Some(held) => held.borrow_mut().push_str(text),
-            None => drop(io::stderr().write_all(text.as_bytes())),
+            None => drop(guard::pause(|| io::stderr().write_all(text.as_bytes()))),
         }
     }
 
@@ -193,7 +203,7 @@ impl Console {
     fn print_as_it_is(&self, text: &str) -> Outcome {
         // What is behind the last line end waits in a buffer, and would be lost without a word.
         let mut out = io::stdout().lock();
-        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        match guard::pause(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
             Ok(()) => Ok(SUCCESS),
             // The reader has seen enough, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),

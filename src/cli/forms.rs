@@ -1,6 +1,5 @@
 //! The forms of a report that are written into files, several at once if several are asked for.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
@@ -8,7 +7,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif, vcd};
 use petril::verdict::{Answer, Trace};
 
-use super::{Failure, output, reason, shown};
+use super::{Failure, guard, output, reason, shown};
 
 /// Files that a check writes beside its report.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -35,7 +34,8 @@ pub struct Forms {
 
 /// Writes what was asked for. Each file is whole, or is not there.
 pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(), Failure> {
-    refuse_twice(forms)?;
+    refuse(forms)?;
+    guard::phase("writing the report");
     let stamp = stamp(started);
     if let Some(file) = &forms.html {
         output::write_text(file, &html::write(checked, stamp))?;
@@ -63,17 +63,9 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
     Ok(())
 }
 
-/// Refuses two forms in one file.
-pub fn refuse_twice(forms: &Forms) -> Result<(), Failure> {
-    let files = [&forms.html, &forms.junit, &forms.sarif, &forms.csv];
-    let mut names = BTreeSet::new();
-    match files.into_iter().flatten().find(|name| !names.insert(*name)) {
-        Some(twice) => {
-            let message = format!("`{}` cannot be two things: give each form a file of its own", shown(twice));
-            Err(Failure::Message(message))
-        }
-        None => Ok(()),
-    }
+/// Refuses two forms in one file, and forms in the place of an input.
+pub fn refuse(forms: &Forms) -> Result<(), Failure> {
+    output::refuse([&forms.html, &forms.junit, &forms.sarif, &forms.csv].into_iter().flatten())
 }
 
 /// Writes a file for each counterexample, named after the requirement.

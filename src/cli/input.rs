@@ -16,7 +16,7 @@ use petril::translate::{Plant, System};
 
 use super::console::Console;
 use super::meaning::Reading;
-use super::{Failure, reason, shown};
+use super::{Failure, guard, output, reason, shown};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
 pub const MAX_TEXT: u64 = 64 << 20;
@@ -30,7 +30,9 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
         Failure::Message(format!("cannot read `{}`: {}", shown(path), reason(&error)))
     };
     let mut bytes = Vec::new();
+    guard::phase("reading files");
     if name == "-" {
+        output::has_read(path);
         std::io::stdin().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
         console.has_read(path, Some(&bytes));
     } else {
@@ -77,17 +79,25 @@ pub fn program(path: &Path, reading: &Reading, console: &Console) -> Result<Prog
 
 /// The same of a text that was read already.
 pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Result<Program, Failure> {
+    guard::phase("reading the program");
     let (unit, mut diagnostics) = syntax::parse(&source);
     if reading.strict {
         diagnostics.extend(semantics::strict(&source, &unit));
     }
+    guard::phase("checking names and types");
     let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), reading.pou.as_deref());
     // The letter of the standard has said so already.
     diagnostics.extend(more.into_iter().filter(|d| !(reading.strict && d.code == Code::CheckedByItself)));
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
     let program = program.filter(|_| !any_error(&diagnostics)).ok_or(Failure::Reported)?;
+    guard::phase("flattening the program");
     Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
+}
+
+/// What is assumed because of a warning about a program, in words.
+pub fn assumed(code: &str, message: &str) -> Option<String> {
+    (code == Code::AddressesMayOverlap.id()).then(|| format!("every address is a place of its own, though {message}"))
 }
 
 /// Reads a text as a net.
@@ -113,6 +123,7 @@ fn net_by(path: &Path, [of_tina, of_pnml]: [NetReader; 2], console: &Console) ->
         }
     };
     let source = source(path, MAX_NET, console)?;
+    guard::phase("reading a net");
     match read(&source) {
         Ok(net) => {
             console.diagnostics(&net.warnings, &source);
@@ -133,6 +144,7 @@ pub fn system<P: AsRef<Path>>(
     console: &Console,
 ) -> Result<(System, Source), Failure> {
     let (program, plant) = parts(path, plants, reading, console)?;
+    guard::phase("composing the net");
     Ok((System::new(program.flat, plant), program.source))
 }
 
@@ -161,10 +173,9 @@ pub fn parts_of<P: AsRef<Path>>(
     let mut failed = false;
     for net in nets {
         let (net, net_source) = net?;
-        if let Err(diagnostics) = plant.add(&net, &program.flat) {
-            console.diagnostics(&diagnostics, &net_source);
-            failed = true;
-        }
+        let (Ok(diagnostics) | Err(diagnostics)) = plant.add(&net, &program.flat);
+        console.diagnostics(&diagnostics, &net_source);
+        failed |= any_error(&diagnostics);
     }
     if failed { Err(Failure::Reported) } else { Ok((program, plant)) }
 }

@@ -13,12 +13,14 @@ mod explain;
 mod flat;
 mod format;
 mod forms;
+mod guard;
 mod init;
 mod input;
 mod input_table;
 mod interactive;
 mod manual;
 mod meaning;
+mod memory;
 mod net_check;
 mod net_convert;
 mod net_explore;
@@ -91,15 +93,10 @@ pub fn run() -> ExitCode {
     let matches = Args::command().try_get_matches_from(&words).unwrap_or_else(|error| refuse(error, &words));
     let args = Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let console = Console::new(args.colour);
-    let wants_json = match &args.verb {
-        Verb::Check(arguments) => arguments.json,
-        Verb::Net(NetVerb::Info(arguments)) => arguments.on.json,
-        Verb::Net(NetVerb::Check(arguments)) => arguments.on.json,
-        Verb::Net(NetVerb::Explore(arguments)) => arguments.json,
-        Verb::Net(NetVerb::Reduce(arguments)) => arguments.json,
-        Verb::Sif(verb) => verb.wants_json(),
-        _ => false,
-    };
+    let wants_json = args.verb.wants_json();
+    if let Some(bounds) = args.verb.bounds() {
+        guard::start(&bounds, guard::Ending { has_verdict: args.verb.has_verdict(), wants_json });
+    }
     console.has_options(&args.verb);
     let outcome = match args.verb {
         Verb::Check(arguments) => check::run(&arguments, &project::given(&matches), &console),

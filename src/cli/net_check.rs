@@ -7,7 +7,7 @@ use petril::diagnostic::Diagnostic;
 use petril::exchange::mcc::{self, Query};
 use petril::exchange::tapaal;
 use petril::explore::engine::Options;
-use petril::logic::{Nodes, bind_in_net, parse_formula};
+use petril::logic::{Nodes, View, bind_in_net, parse_formula};
 use petril::net::{Located, PlaceId, TransitionId};
 use petril::printable;
 use petril::source::Source;
@@ -95,10 +95,11 @@ fn questions(
     let by_name = Nodes::by_name(&located.net);
     for text in &arguments.formula {
         let source = Source::new("formula", text.as_str());
-        let bound =
-            parse_formula(&source).map_err(|error| vec![error]).and_then(|parsed| bind_in_net(&parsed, &by_name));
-        match bound {
+        let parsed = parse_formula(&source).map_err(|error| vec![error]);
+        let doubt = parsed.as_ref().ok().and_then(|parsed| parsed.doubt(text, View::Transition));
+        match parsed.and_then(|parsed| bind_in_net(&parsed, &by_name)) {
             Ok(bound) => {
+                console.diagnostics(doubt.as_slice(), &source);
                 names.push((text.clone(), false));
                 questions.push(Question::Holds(bound.simplified()));
             }

@@ -9,39 +9,22 @@ use petril::explore::{Budget, Progress};
 
 use super::Failure;
 use super::args::Limits;
+use super::guard::{self, Reason};
+use super::memory;
 
 /// Watches a search.
 pub struct Watcher {
     bar: ProgressBar,
     started: Instant,
     timeout: Option<Duration>,
+    /// MiB that may be in use.
+    memory: u64,
     /// When the figures were last shown, in time since the start.
     shown: Cell<Duration>,
 }
 
 /// How long work may take before anything is shown, and between two figures.
 const PAUSE: Duration = Duration::from_millis(250);
-
-/// When whoever started the program wanted it to end.
-static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
-
-/// A signal so soon after another is the same one, sent to the program and to its group.
-const TWICE: Duration = Duration::from_millis(500);
-
-/// From now on, Ctrl-C ends the search, and the second one the program.
-pub fn listen() {
-    // If nobody can be told, Ctrl-C ends the program as usual.
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
-            std::process::exit(130);
-        }
-    });
-}
-
-/// Whether whoever started the program wants it to end.
-pub fn is_interrupted() -> bool {
-    INTERRUPTED.get().is_some()
-}
 
 /// Sets the number of threads, once.
 pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
@@ -55,10 +38,10 @@ pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
 }
 
 impl Watcher {
-    /// Sets the number of threads, and begins to watch. From now on, Ctrl-C ends the search, and the second one the program.
+    /// Sets the number of threads, and begins to watch.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
-        listen();
+        guard::listen();
         // Drawn on standard error, and only if that is a terminal.
         Self::drawing(limits, ProgressDrawTarget::stderr())
     }
@@ -76,10 +59,11 @@ impl Watcher {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
-        Ok(Self { bar, started: Instant::now(), timeout, shown: Cell::default() })
+        let memory = limits.budget().bytes >> 20;
+        Ok(Self { bar, started: Instant::now(), timeout, memory, shown: Cell::default() })
     }
 
-    /// Shows the figures; gives a reason to stop if time is up.
+    /// Shows the figures; gives a reason to stop if time is up, or memory.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
@@ -101,11 +85,9 @@ impl Watcher {
                 )
             });
         }
-        if is_interrupted() {
-            return Some("interrupted".to_owned());
-        }
-        let timeout = self.timeout.filter(|&timeout| elapsed > timeout)?;
-        Some(format!("the time limit of {} s was reached", timeout.as_secs_f64()))
+        let time = self.timeout.filter(|&timeout| elapsed > timeout).map(Reason::Time);
+        let memory = (guard::used() > self.memory).then(|| Reason::memory(self.memory));
+        guard::asked().or(time).or(memory).map(|reason| reason.to_string())
     }
 
     /// Does something while the figures are off the terminal.
@@ -127,6 +109,7 @@ impl Limits {
 
     /// The same where so many states are enough if nothing else is said.
     pub fn budget_of(&self, states: u64) -> Budget {
-        Budget { states: self.max_states.unwrap_or(states), bytes: self.max_memory.saturating_mul(1 << 20) }
+        let bytes = self.max_memory.unwrap_or_else(memory::default_limit).saturating_mul(1 << 20);
+        Budget { states: self.max_states.unwrap_or(states), bytes }
     }
 }

@@ -180,7 +180,10 @@ impl Asked {
                     break;
                 }
                 match bind_requirement(&requirement, system, view) {
-                    Ok(demand) => bound.requirements.push((told(requirement, &demand, system), demand)),
+                    Ok(demand) => {
+                        diagnostics.extend(requirement.doubt(view));
+                        bound.requirements.push((told(requirement, &demand, system), demand));
+                    }
                     Err(errors) => diagnostics.extend(errors),
                 }
             }
@@ -197,7 +200,7 @@ const LONG: usize = 160;
 
 /// The requirement with the formula that its pattern stands for.
 fn told(requirement: Requirement, demand: &Demand, system: &System) -> Requirement {
-    let formula = demand.formula().filter(|_| requirement.words.is_some()).map(|formula| formula.text(system));
+    let formula = demand.text(system).filter(|_| requirement.words.is_some());
     match formula.filter(|text| text.len() <= LONG) {
         Some(text) => Requirement { text, ..requirement },
         None => requirement,

@@ -8,7 +8,7 @@ use notify::{RecursiveMode, Watcher as _};
 
 use super::console::Console;
 use super::seen::Seen;
-use super::{Failure, Outcome, progress, report::counted};
+use super::{Failure, Outcome, guard, report::counted};
 
 /// How long nothing must happen until files are looked at: editors write in several steps.
 const QUIET: Duration = Duration::from_millis(100);
@@ -21,14 +21,14 @@ const INTERRUPTED: u8 = 130;
 
 /// Checks, and checks again, until it is interrupted. `check` prints what it finds.
 pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
-    progress::listen();
+    guard::listen();
     loop {
         console.clear()?;
         if let Err(Failure::Message(message)) = check() {
             console.error(&message);
         }
         let seen = console.take_seen();
-        if progress::is_interrupted() {
+        if guard::is_interrupted() {
             return Ok(ExitCode::from(INTERRUPTED));
         }
         console.message(&format!("watching {}; Ctrl-C ends\n", counted(seen.count(), "file")));
@@ -59,7 +59,7 @@ fn is_changed(seen: &Seen, events: &Receiver<()>) -> bool {
             Err(RecvTimeoutError::Disconnected) => std::thread::sleep(TICK),
             Err(RecvTimeoutError::Timeout) => {}
         }
-        if progress::is_interrupted() {
+        if guard::is_interrupted() {
             return false;
         }
         if seen.is_other_now() {

@@ -179,6 +179,8 @@ codes! {
     StandardNotSupported = "E0329",
     /// The program is too large when all its calls are written out.
     ProgramTooLarge = "E0330",
+    /// Nothing says of which type a literal is, and that makes a difference.
+    LiteralWithoutType = "W0331",
 
     /// A net file is not what its format asks for.
     NetSyntax = "E0401",
@@ -202,6 +204,12 @@ codes! {
     PlantTooLarge = "E0410",
     /// The units of a net do not fit it.
     UnitsUnfit = "W0411",
+    /// Two places of a plant stand for one valuation.
+    PlantValuationTwice = "E0412",
+    /// A transition of a plant can never fire.
+    PlantTransitionDead = "W0413",
+    /// A place of a plant is not declared, and nothing leaves it.
+    PlantPlaceUndeclared = "W0414",
 
     /// A requirement is not what the grammar expects.
     RequirementSyntax = "E0501",
@@ -223,6 +231,8 @@ codes! {
     FairnessUnfit = "E0510",
     /// A formula of LTL has a part that cannot stand in it.
     LtlUnfit = "E0511",
+    /// A formula speaks of the beginning of a run only.
+    FormulaOfBeginning = "W0512",
 
     /// A table of inputs is not what the program needs.
     InputTable = "E0601",

@@ -80,14 +80,15 @@ impl<'a> Checked<'a> {
     /// Why the verdict is what it is, on one line, if there is something to say.
     #[must_use]
     pub fn reason(&self, answer: &Answer) -> Option<String> {
-        match &answer.outcome {
-            Outcome::Unknown(reason) => Some(printable::line(reason)),
-            Outcome::Holds { vacuous: Some(vacuity), .. } => {
-                Some(printable::line(&format!("vacuous: {}", vacuity.sentence())))
-            }
+        let reason = match &answer.outcome {
+            Outcome::Unknown(reason) => Some(reason.clone()),
+            Outcome::Holds { vacuous: Some(vacuity), .. } => Some(format!("vacuous: {}", vacuity.sentence())),
             Outcome::Holds { .. } => answer.independent.map(|what| independence(what).to_owned()),
             Outcome::Violated(witness, _) => Some(self.notes(witness).collect::<Vec<_>>().join("; ")),
-        }
+        };
+        // What is doubtful about the requirement goes with every verdict.
+        let parts: Vec<String> = reason.into_iter().chain(answer.remark.clone()).collect();
+        (!parts.is_empty()).then(|| printable::line(&parts.join("; ")))
     }
 
     /// What a run shows, as sentences.

@@ -15,6 +15,8 @@ pub struct Draft {
     pub places: Vec<DraftPlace>,
     pub transitions: Vec<DraftTransition>,
     arcs: Vec<Arc>,
+    /// The places that are used and not declared, by position.
+    pub undeclared: Vec<usize>,
     /// The ids of both in the file, if the format has ids.
     pub ids: Option<(Vec<String>, Vec<String>)>,
     pub units: Option<Units>,
@@ -107,6 +109,7 @@ impl Draft {
             net: builder.build(),
             places: self.places.iter().map(|place| place.span).collect(),
             transitions: self.transitions.iter().map(|transition| transition.span).collect(),
+            undeclared: self.undeclared.into_iter().map(PlaceId::at).collect(),
             ids: self.ids,
             units: self.units,
             not_safe: self.not_safe,

@@ -79,6 +79,9 @@ fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
     for assumption in &checked.report.assumptions {
         property("assumed", assumption)?;
     }
+    for warning in &checked.report.warnings {
+        property("warning", warning)?;
+    }
     for answer in checked.answers() {
         if answer.recalled {
             property(&format!("{}.known", answer.name), "from an earlier run")?;

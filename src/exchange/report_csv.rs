@@ -1,4 +1,4 @@
-//! Reports as tables (CSV, RFC 4180): one row for each requirement and check; and the inputs of a run, one row a scan, as
+//! Reports as tables (CSV, RFC 4180): one row for each requirement, check, assumption and warning; and the inputs of a run, one row a scan, as
 //! `petril simulate --inputs` reads them.
 
 use super::checked::{Checked, runs, tags, why};
@@ -35,13 +35,26 @@ const COLUMNS: [&str; 21] = [
 
 /// Writes a report. `length` counts scans, in the transition view firings; `repeats` is the one to which the last one leads
 /// back; `written_at` are the lines of source that wrote what breaks the requirement; `known` is whether the answer is from an
-/// earlier run; `inputs` are the files that were read, each with its SHA-256, and `options` is that of all options.
+/// earlier run; `inputs` are the files that were read, each with its SHA-256, and `options` is that of all options. What is
+/// assumed, and what was warned of, stands in the column `sentence` of rows of its own, behind the others.
 #[must_use]
 pub fn write(checked: &Checked<'_>) -> String {
     let kinds = [("requirement", &checked.report.answers), ("check", &checked.report.checks)];
     let rows = kinds.into_iter().flat_map(|(kind, answers)| answers.iter().map(move |answer| (kind, answer)));
     let rows = rows.map(|(kind, answer)| row(checked, kind, answer));
-    table::write(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows))
+    let said = [("assumption", &checked.report.assumptions), ("warning", &checked.report.warnings)];
+    let said = said.into_iter().flat_map(|(kind, texts)| texts.iter().map(move |text| said_row(kind, text)));
+    table::write(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows).chain(said))
+}
+
+/// A row with a kind and a sentence.
+fn said_row(kind: &str, sentence: &str) -> Vec<String> {
+    let cell = |column: &str| match column {
+        "kind" => kind.to_owned(),
+        "sentence" => sentence.to_owned(),
+        _ => String::new(),
+    };
+    COLUMNS.map(cell).to_vec()
 }
 
 fn row(checked: &Checked<'_>, kind: &str, answer: &Answer) -> Vec<String> {

@@ -37,6 +37,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
         "assumptions": checked.report.assumptions,
         "options": checked.provenance.options,
         "known": checked.answers().filter(|answer| answer.recalled).map(|answer| &answer.name).collect::<Vec<_>>(),
+        "warnings": checked.report.warnings,
     });
     properties["verdicts"] =
         checked.answers().map(|a| (a.name.clone(), a.outcome.verdict().word().into())).collect::<Map<_, _>>().into();
@@ -91,6 +92,12 @@ fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
         "defaultConfiguration": { "level": level(answer) },
         "properties": { "tags": tags(answer).collect::<Vec<_>>(), "formula": answer.formula },
     });
+    // What holds gives no result, which would say it.
+    if answer.outcome.verdict() == Verdict::Holds
+        && let Some(reason) = checked.reason(answer)
+    {
+        rule["properties"]["reason"] = reason.into();
+    }
     if let Some(origin) = checked.file_of(answer) {
         rule["properties"]["origin"] = format!("{}:{}:{}", origin.file, origin.line, origin.column).into();
     }

@@ -224,6 +224,8 @@ fn complement(ty: Type, negated: bool, value: u64) -> u64 {
 }
 
 #[cfg(test)]
+mod order;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod written_out;

@@ -6,7 +6,7 @@ use crate::semantics::check;
 use crate::source::Source;
 use crate::syntax::parse;
 
-fn flat(text: &str) -> FlatProgram {
+pub(super) fn flat(text: &str) -> FlatProgram {
     flatten(&checked(text))
 }
 
@@ -17,18 +17,18 @@ fn checked(text: &str) -> crate::semantics::Program {
 }
 
 /// A machine that takes and gives numbers by name.
-struct Run<'p> {
+pub(super) struct Run<'p> {
     machine: Machine<'p>,
     program: &'p FlatProgram,
 }
 
 impl<'p> Run<'p> {
-    fn new(program: &'p FlatProgram) -> Self {
+    pub fn new(program: &'p FlatProgram) -> Self {
         Self { machine: Machine::new(program), program }
     }
 
     /// One scan with these inputs; what can go wrong in it.
-    fn scan(&mut self, inputs: &[(&str, i128)]) -> Vec<Hazard> {
+    pub fn scan(&mut self, inputs: &[(&str, i128)]) -> Vec<Hazard> {
         for (name, number) in inputs {
             let id = self.program.find(name).unwrap_or_else(|| panic!("{name}"));
             self.machine.set(id, self.program.variable(id).ty.pattern(*number));
@@ -38,7 +38,7 @@ impl<'p> Run<'p> {
         self.machine.hazards().iter().map(|(_, hazard)| *hazard).collect()
     }
 
-    fn get(&self, name: &str) -> i128 {
+    pub fn get(&self, name: &str) -> i128 {
         let id = self.program.find(name).unwrap_or_else(|| panic!("{name}"));
         self.program.variable(id).ty.number(self.machine.value(id))
     }

@@ -127,6 +127,17 @@ impl Bound {
         }
     }
 
+    /// f, if this is EF f.
+    #[must_use]
+    pub fn possibility(&self) -> Option<&Self> {
+        match self {
+            Self::Until { quantifier: Quantifier::Some, weak: false, hold, release } => {
+                (**hold == Self::Truth(true)).then_some(release)
+            }
+            _ => None,
+        }
+    }
+
     /// Shows every place whose tokens it speaks of, as often as it does.
     pub fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
         match self {

@@ -10,8 +10,10 @@ use crate::translate::System;
 /// What is asked.
 #[derive(Clone, Debug)]
 pub enum Demand {
-    /// That a formula holds.
+    /// That a formula is true in every initial state.
     Formula(Bound),
+    /// That a formula, which says that something is possible, is true in some initial state: some run from power-on shows it.
+    Possible(Bound),
     /// That some scan comes to every line.
     EveryLine,
 }
@@ -21,7 +23,20 @@ impl Demand {
     #[must_use]
     pub fn formula(&self) -> Option<&Bound> {
         match self {
-            Self::Formula(formula) => Some(formula),
+            Self::Formula(formula) | Self::Possible(formula) => Some(formula),
+            Self::EveryLine => None,
+        }
+    }
+
+    /// The formula as text, or the pattern where the formula says something else.
+    #[must_use]
+    pub fn text(&self, system: &System) -> Option<String> {
+        match self {
+            Self::Formula(formula) => Some(formula.text(system)),
+            Self::Possible(formula) => Some(match formula.possibility() {
+                Some(goal) => format!("reachability({})", goal.text(system)),
+                None => formula.text(system),
+            }),
             Self::EveryLine => None,
         }
     }
@@ -34,6 +49,7 @@ impl Demand {
 pub fn bind_requirement(requirement: &Requirement, system: &System, view: View) -> Result<Demand, Vec<Diagnostic>> {
     match &requirement.body {
         Body::Formula(formula) => bind(formula, system, view).map(Demand::Formula),
+        Body::Possible(formula) => bind(formula, system, view).map(Demand::Possible),
         Body::EveryLine if view == View::Scan => Ok(Demand::EveryLine),
         Body::EveryLine => {
             let message = "whether every line is reachable is checked in the scan view only";
@@ -47,7 +63,7 @@ impl Requirement {
     /// Whether it speaks of times, so that its truth depends on how long a scan takes.
     #[must_use]
     pub fn speaks_of_time(&self) -> bool {
-        matches!(&self.body, Body::Formula(formula) if formula.speaks_of_time())
+        matches!(&self.body, Body::Formula(formula) | Body::Possible(formula) if formula.speaks_of_time())
     }
 }
 

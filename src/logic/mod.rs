@@ -26,6 +26,7 @@ mod mentions;
 mod parse;
 mod past;
 mod representatives;
+mod scope;
 mod simplify;
 mod sweep;
 mod text;

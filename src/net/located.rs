@@ -13,6 +13,8 @@ pub struct Located {
     pub places: Vec<Span>,
     /// Where each transition is defined.
     pub transitions: Vec<Span>,
+    /// The places that are used and not declared, where the format needs no declaration.
+    pub undeclared: Vec<PlaceId>,
     /// The ids of places and transitions in the file, by position; none where the format knows names only.
     pub ids: Option<(Vec<String>, Vec<String>)>,
     /// The units of its places, if the file has them.

@@ -149,8 +149,7 @@ impl Inference {
 
     /// Settles every type and literal: the patterns of the literals, and what does not fit.
     pub fn settle(mut self) -> (Vec<Type>, Vec<u64>, Vec<Diagnostic>) {
-        self.defaults();
-        let mut found = Vec::new();
+        let mut found = self.defaults();
         for (at, class, span, operator) in std::mem::take(&mut self.classes) {
             let root = self.root(at);
             if let Some(known) = self.known[root].as_ref().filter(|known| !class.has(&known.scalar)) {
@@ -195,24 +194,32 @@ impl Inference {
         (types.collect(), patterns, found)
     }
 
-    /// Literals that meet nothing that has a type are `INT`, or of the first larger type that has them all.
-    fn defaults(&mut self) {
-        let mut open: BTreeMap<usize, (Vec<i128>, Span)> = BTreeMap::new();
+    /// Literals that meet nothing that has a type are `INT`, or of the first larger type that has them all; with operators on
+    /// bits, of the first type of bits. A warning says so where an operator's value depends on it.
+    fn defaults(&mut self) -> Vec<Diagnostic> {
+        let mut open: BTreeMap<usize, (Vec<i128>, Constant)> = BTreeMap::new();
         for i in 0..self.literals.len() {
             let root = self.root(self.literals[i].0);
             if self.known[root].is_none()
                 && let Some(Literal::Integer(number)) = self.literals[i].1.literal
             {
-                open.entry(root).or_insert((Vec::new(), self.literals[i].1.span)).0.push(number);
+                open.entry(root).or_insert((Vec::new(), self.literals[i].1.clone())).0.push(number);
             }
         }
         let mut bits = BTreeSet::new();
+        let mut depends: BTreeMap<usize, (Span, String)> = BTreeMap::new();
         for k in 0..self.classes.len() {
-            if self.classes[k].1 == Class::Bits {
-                bits.insert(self.root(self.classes[k].0));
+            let (at, class, span, operator) = self.classes[k].clone();
+            let root = self.root(at);
+            if class == Class::Bits {
+                bits.insert(root);
+            }
+            if DEPEND_ON_TYPE.iter().any(|word| word.eq_ignore_ascii_case(&operator)) {
+                depends.entry(root).or_insert((span, operator));
             }
         }
-        for (root, (numbers, span)) in open {
+        let mut found = Vec::new();
+        for (root, (numbers, first)) in open {
             let candidates: &[&str] = if bits.contains(&root) {
                 &["BOOL", "BYTE", "WORD", "DWORD", "LWORD"]
             } else {
@@ -220,10 +227,25 @@ impl Inference {
             };
             let mut fitting = candidates.iter().filter_map(|name| Type::named(name));
             let ty = fitting.find(|ty| numbers.iter().all(|&number| ty.holds(number)));
-            self.known[root] = ty.map(|ty| Known { scalar: Scalar::new(ty), span });
+            if let (Some(ty), Some((span, operator))) = (ty, depends.get(&root)) {
+                let message = format!("nothing says of which type `{}` is, so `{ty}` is taken", first.text);
+                let example = if ty.is_bool() { Type::new(Kind::Bits, 16) } else { ty };
+                found.push(
+                    Diagnostic::new(Code::LiteralWithoutType, first.span, message)
+                        .also(*span, format!("the value of `{operator}` depends on the type"))
+                        .help(format!("say which one is meant, like `{example}#{}`", first.text)),
+                );
+            }
+            self.known[root] = ty.map(|ty| Known { scalar: Scalar::new(ty), span: first.span });
         }
+        found
     }
 }
+
+/// Operators that can come out differently in two types that both have the operands: a result may overflow, or a complement,
+/// shift or rotation reaches the highest bit.
+const DEPEND_ON_TYPE: [&str; 13] =
+    ["ADD", "SUB", "MUL", "DIV", "MOD", "ABS", "NOT", "LDN", "ORN", "XORN", "SHL", "ROL", "ROR"];
 
 /// What to do where an operator has no meaning for a type.
 fn advice(class: Class, scalar: &Scalar) -> String {

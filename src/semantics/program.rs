@@ -221,14 +221,16 @@ pub struct Call {
     pub callee: Callee,
     /// The variable that CR is stored in first, and its type.
     pub result_to: Option<(usize, TypeId)>,
-    /// Values for variables of the callee.
+    /// Values for variables of the callee, in the order of the text.
     pub inputs: Vec<(usize, Feed)>,
     /// Variables of the caller for the in-out variables of the callee.
     pub in_outs: Vec<(usize, Place)>,
-    /// Variables of the caller that get outputs; complemented if `true`.
+    /// Variables of the caller that get outputs, in the order of the text; complemented if `true`.
     pub outputs: Vec<(usize, bool, Place)>,
     /// `EN` and `ENO`.
     pub enable: Enable,
+    /// Number of outputs that are written before `ENO`.
+    pub before_eno: usize,
 }
 
 /// What is called.
@@ -245,7 +247,7 @@ pub enum Callee {
 pub struct Enable {
     /// Whether it is executed.
     pub en: Option<Feed>,
-    /// Gets whether it was, complemented if `true`.
+    /// Gets whether it was, after the call; complemented if `true`.
     pub eno: Option<(bool, Place)>,
 }
 

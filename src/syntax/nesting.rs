@@ -1,4 +1,5 @@
-//! How deeply declarations are nested: counted before the grammar, which follows every level with a call of its own.
+//! How deeply declarations, and lists in the calls of lists, are nested: counted before the grammar, which follows every level
+//! with a call of its own.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -6,7 +7,10 @@ use crate::source::Span;
 /// Arrays, structures and initial values may be nested this deep. Real programs stay below five.
 const MAX_DEPTH: usize = 100;
 
-/// What is nested in a declaration at some place of the text.
+/// Lists that give inputs of calls their values may be nested this deep.
+const MAX_LISTS: usize = 20;
+
+/// What is nested at some place of the text.
 #[derive(Default)]
 struct Nesting {
     /// Whether a block of declarations is open.
@@ -16,11 +20,27 @@ struct Nesting {
     arrays: usize,
     /// `(` and `[`.
     brackets: usize,
+    /// For each `(` behind a `:=` that is open, the number of brackets with it.
+    lists: Vec<usize>,
+    /// Whether a `:=` has just been read.
+    assigns: bool,
 }
 
 impl Nesting {
     fn depth(&self) -> usize {
         self.structures + self.arrays + self.brackets
+    }
+
+    fn open(&mut self) {
+        self.brackets += 1;
+        if self.assigns {
+            self.lists.push(self.brackets);
+        }
+    }
+
+    fn close(&mut self) {
+        self.brackets = self.brackets.saturating_sub(1);
+        self.lists.retain(|&brackets| brackets <= self.brackets);
     }
 
     fn word(&mut self, word: &str) {
@@ -43,11 +63,13 @@ impl Nesting {
 
     fn end_declaration(&mut self) {
         (self.arrays, self.brackets) = (0, 0);
+        self.lists.clear();
     }
 }
 
-/// Reports the first place of a text without comments where declarations are nested too deeply.
-pub fn too_deep(text: &str) -> Option<Diagnostic> {
+/// Reports the first place of a text without comments, which begins at an offset, where declarations or lists are nested too
+/// deeply.
+pub fn too_deep(text: &str, start: usize) -> Option<Diagnostic> {
     let bytes = text.as_bytes();
     let is_word = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';
     let mut nesting = Nesting::default();
@@ -62,8 +84,8 @@ pub fn too_deep(text: &str) -> Option<Diagnostic> {
             _ => 1,
         };
         match bytes[at] {
-            b'(' | b'[' => nesting.brackets += 1,
-            b')' | b']' => nesting.brackets = nesting.brackets.saturating_sub(1),
+            b'(' | b'[' => nesting.open(),
+            b')' | b']' => nesting.close(),
             b';' => nesting.end_declaration(),
             b if is_word(&b) => nesting.word(&text[at..at + length]),
             _ => {}
@@ -71,8 +93,24 @@ pub fn too_deep(text: &str) -> Option<Diagnostic> {
         if nesting.declares && nesting.depth() > MAX_DEPTH {
             let message = format!("this declaration is nested more than {MAX_DEPTH} deep");
             let help = "declare its parts as types of their own, and no deeper than they have to be";
-            return Some(Diagnostic::new(Code::DeclarationTooDeep, Span::new(at, at + length), message).help(help));
+            return Some(
+                Diagnostic::new(Code::DeclarationTooDeep, Span::new(start + at, start + at + length), message)
+                    .help(help),
+            );
         }
+        if !nesting.declares && nesting.lists.len() > MAX_LISTS {
+            let message = format!("lists in calls are nested more than {MAX_LISTS} deep");
+            let help = "store an intermediate result in a variable instead";
+            return Some(
+                Diagnostic::new(Code::ParenthesisTooDeep, Span::new(start + at, start + at + length), message)
+                    .help(help),
+            );
+        }
+        nesting.assigns = match bytes[at] {
+            b'=' => at > 0 && bytes[at - 1] == b':',
+            // What the grammar takes for a blank is one of these.
+            b => nesting.assigns && (b.is_ascii_whitespace() || b == 0x0B || !b.is_ascii()),
+        };
         at += length;
     }
     None
@@ -80,7 +118,11 @@ pub fn too_deep(text: &str) -> Option<Diagnostic> {
 
 #[cfg(test)]
 mod tests {
-    use super::too_deep;
+    use crate::diagnostic::Diagnostic;
+
+    fn too_deep(text: &str) -> Option<Diagnostic> {
+        super::too_deep(text, 0)
+    }
 
     #[test]
     fn a_hundred_levels_are_enough() {
@@ -102,6 +144,14 @@ mod tests {
         assert!(too_deep(&format!("VAR {} END_VAR", "a : ARRAY [0..1] OF INT := [(1)];\n".repeat(1000))).is_none());
         assert!(too_deep(&format!("TYPE {} END_TYPE", "a : STRUCT b : INT; END_STRUCT;\n".repeat(1000))).is_none());
         assert!(too_deep(&"VAR a : STRUCT END_VAR PROGRAM p LD ( (".repeat(1000)).is_none());
+    }
+
+    #[test]
+    fn twenty_lists_in_each_other_are_enough() {
+        let lists = |n: usize| format!("PROGRAM p\n{}LD a\n{}", "f(x := (\n".repeat(n), ")\n)\n".repeat(n));
+        assert!(too_deep(&lists(20)).is_none());
+        assert_eq!(too_deep(&lists(21)).map(|d| d.span().start), Some("PROGRAM p\n".len() + 20 * 9 + 7));
+        assert!(too_deep(&format!("PROGRAM p\n{}", "f(x := (\nLD a\n),\ny := (\nLD a\n))\n".repeat(100))).is_none());
     }
 
     #[test]

@@ -24,7 +24,7 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
         // What an open comment hides is missing everywhere: no more than its opening is worth telling.
         return (Unit::default(), vec![unclosed]);
     }
-    if let Some(too_deep) = nesting::too_deep(&text) {
+    if let Some(too_deep) = nesting::too_deep(&text, 0) {
         return (Unit::default(), vec![too_deep]);
     }
     let mut diagnostics = Vec::new();

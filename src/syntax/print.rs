@@ -211,7 +211,9 @@ fn instruction(f: &mut Formatter<'_>, instruction: &Instruction, depth: usize) -
             writeln!(f, "{:indent$}CAL{} {callee}{}", "", condition.suffix(), arguments(given))
         }
         Some(Operation::Function { name, arguments: given }) => {
-            writeln!(f, "{:indent$}{}{}", "", name.text, arguments(given))
+            // Without parentheses, the current result would be the first input.
+            let given = if given.enclosed && given.list.is_empty() { "()".to_owned() } else { arguments(given) };
+            writeln!(f, "{:indent$}{}{given}", "", name.text)
         }
     }
 }

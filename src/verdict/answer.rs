@@ -25,6 +25,8 @@ pub struct Answer {
     pub outcome: Outcome,
     /// If it holds whatever the program does.
     pub independent: Option<Independence>,
+    /// What is doubtful about the requirement itself, whatever the outcome is.
+    pub remark: Option<String>,
     /// Whether this was found by an earlier check.
     pub recalled: bool,
 }
@@ -42,6 +44,7 @@ impl Answer {
             origin: Some(requirement.origin.clone()),
             outcome,
             independent: None,
+            remark: None,
             recalled: false,
         }
     }
@@ -58,6 +61,7 @@ impl Answer {
             origin: None,
             outcome,
             independent: None,
+            remark: None,
             recalled: false,
         }
     }

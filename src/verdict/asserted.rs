@@ -52,6 +52,7 @@ pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
         origin: Some(assertion.origin.clone()),
         outcome,
         independent: None,
+        remark: None,
         recalled: false,
     }
 }

@@ -26,6 +26,8 @@ pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<Strin
             false => "moves any number of times between two scans, or not at all",
         };
         assumptions.push(format!("`{}` {gives}{moves}", component.name));
+        let dead = component.dead_transitions().into_iter().map(|position| &component.transitions[position]);
+        assumptions.extend(dead.map(|transition| format!("`{}` never fires: nothing enables it", transition.name)));
     }
     let (restricted, any): (Vec<VarId>, Vec<VarId>) = system
         .free_inputs()

@@ -12,14 +12,17 @@ use super::remarks::remarks;
 use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
 use super::why::{Broken, why};
-use super::{Answer, Exploration, Outcome, Report, Verdict, admitted, asserted, every_line, hazards, scan_ends};
+use super::{
+    Answer, Exploration, Outcome, Report, Verdict, Witness, admitted, asserted, every_line, hazards, scan_ends,
+};
 use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed};
 use crate::flat::Tolerated;
 use crate::logic::{
-    Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Node, NodeId,
+    Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Labels, Node, NodeId,
     Quantifier, Requirement, View, evidence, label,
 };
 use crate::translate::System;
+use crate::witness::Disagreement;
 
 /// How to check.
 #[derive(Clone, Debug)]
@@ -124,7 +127,8 @@ pub(super) fn answers(
         let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
         // Which runs count may depend on the program.
         let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
-        Answer { independent: independent.filter(certain), ..Answer::to(requirement, outcome) }
+        let remark = requirement.remark(options.view);
+        Answer { independent: independent.filter(certain), remark, ..Answer::to(requirement, outcome) }
     };
     requirements.iter().zip(outcomes).map(answer).collect()
 }
@@ -163,6 +167,7 @@ fn outcomes(
         let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget };
         let judged = members.par_iter().map(|&position| match &requirements[position].1 {
             Demand::Formula(formula) => judge.outcome(formula),
+            Demand::Possible(formula) => judge.outcome_of_possibility(formula),
             Demand::EveryLine => every_line::outcome(view),
         });
         let judged: Vec<Outcome> = judged.collect();
@@ -185,6 +190,7 @@ fn check_markings(
     let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget };
     let outcomes = requirements.par_iter().map(|(_, demand)| match demand {
         Demand::Formula(formula) => judge.outcome(formula),
+        Demand::Possible(formula) => judge.outcome_of_possibility(formula),
         Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
     });
     // What must be so whenever control comes somewhere, and the checks, are about all runs.
@@ -225,6 +231,7 @@ fn report(
             recalled: false,
         },
         assumptions: assumptions(system, options, timed).into_iter().chain(left_out).collect(),
+        warnings: Vec::new(),
         answers: Vec::new(),
         checks: Vec::new(),
         remarks: Vec::new(),
@@ -248,41 +255,71 @@ impl Judge<'_> {
         if let Bound::Ltl(path) = formula {
             return self.outcome_on_paths(path);
         }
-        let Self { view, graph, fair, .. } = *self;
-        let paths = fair.map(|fair| &fair.paths);
-        let (mut dag, assumed) = (Dag::default(), fair.map_or(&[][..], |fair| fair.assumptions));
-        let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
-        let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
-        let labels = label(graph, &dag, &holds, paths);
-        let counts = |&state: &u32| paths.is_none_or(|paths| paths.surely().contains(state as usize));
-        let beginnings: Vec<u32> = graph.initial().iter().copied().filter(counts).collect();
-        let evidence = |node: NodeId| evidence(graph, &dag, &labels, paths, node, &beginnings);
-        let witness = |evidence: &Evidence| witness(view, &dag, evidence, assumed, &|_, _| ());
-        let shown = |node: NodeId| Some(witness(&evidence(node)?));
-        let broken = evidence(no).map(|evidence| (witness(&evidence), evidence));
-        match broken {
-            Some((Ok(witness), evidence)) => {
-                let (dag, labels, evidence) = (&dag, &labels, &evidence);
-                let why = why(Broken { view, graph, formula, dag, negation: no, labels, evidence }, &witness);
+        let Self { graph, .. } = *self;
+        let labelled = self.labelled(formula);
+        match self.broken(&labelled) {
+            Some(Outcome::Violated(witness, why)) => {
+                let why = why.map(|mut why| {
+                    why.wanted.extend(self.elsewhere(&labelled));
+                    why
+                });
                 return Outcome::Violated(witness, why);
             }
-            Some((Err(disagreement), _)) => return disagreed(&disagreement.to_string()),
+            Some(disagreed) => return disagreed,
             None => {}
         }
-        // What holds only because no run counts is no answer.
-        if let Some(vain) = fair.and_then(|fair| fair.vain.as_ref()) {
-            return Outcome::Unknown(vain.clone());
+        let Labelled { dag, labels, yes, .. } = &labelled;
+        let is_true = graph.initial().iter().all(|&state| labels.of(*yes).contains(state as usize));
+        if let Some(reason) = self.undecided(is_true) {
+            return Outcome::Unknown(reason);
         }
-        let everywhere = graph.initial().iter().all(|state| counts(state) && labels.of(yes).contains(*state as usize));
-        if !(everywhere && graph.knows_initial()) {
-            return Outcome::Unknown(what_is_missing(graph));
+        match is_existential(dag, *yes).then(|| self.shown(&labelled, *yes)).flatten() {
+            Some(Err(disagreement)) => disagreed(&disagreement.to_string()),
+            Some(Ok((witness, _))) => self.holds(formula, Some(witness)),
+            None => self.holds(formula, None),
         }
-        let witness = match is_existential(&dag, yes).then(|| shown(yes)).flatten() {
-            Some(Ok(witness)) => Some(witness),
-            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
-            None => None,
-        };
-        let occurrence = whole(graph).map(|graph| occurrence(view, graph, paths, formula)).transpose();
+    }
+
+    /// The states that satisfy a formula, and its negation.
+    pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Labelled<'f> {
+        let mut dag = Dag::default();
+        let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
+        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
+        let labels = label(self.graph, &dag, &holds, self.fair.map(|fair| &fair.paths));
+        Labelled { formula, dag, yes, no, labels }
+    }
+
+    /// A run from an initial state in which a node holds, and a run that counts begins, if there is one.
+    pub(super) fn shown(
+        &self,
+        Labelled { dag, labels, .. }: &Labelled<'_>,
+        node: NodeId,
+    ) -> Option<Result<(Witness, Evidence), Disagreement>> {
+        let Self { view, graph, fair, .. } = *self;
+        let (paths, assumed) = (fair.map(|fair| &fair.paths), fair.map_or(&[][..], |fair| fair.assumptions));
+        let beginnings: Vec<u32> = graph.initial().iter().copied().filter(|&state| self.counts(state)).collect();
+        let evidence = evidence(graph, dag, labels, paths, node, &beginnings)?;
+        Some(witness(view, dag, &evidence, assumed, &|_, _| ()).map(|witness| (witness, evidence)))
+    }
+
+    /// That the formula is false in an initial state, if that is known.
+    pub(super) fn broken(&self, labelled: &Labelled<'_>) -> Option<Outcome> {
+        let Self { view, graph, .. } = *self;
+        Some(match self.shown(labelled, labelled.no)? {
+            Ok((witness, evidence)) => {
+                let Labelled { formula, dag, labels, no: negation, .. } = labelled;
+                let broken = Broken { view, graph, formula, dag, negation: *negation, labels, evidence: &evidence };
+                let why = why(broken, &witness);
+                Outcome::Violated(witness, why)
+            }
+            Err(disagreement) => disagreed(&disagreement.to_string()),
+        })
+    }
+
+    /// That a formula holds, and whether its premises occur.
+    pub(super) fn holds(&self, formula: &Bound, witness: Option<Witness>) -> Outcome {
+        let paths = self.fair.map(|fair| &fair.paths);
+        let occurrence = whole(self.graph).map(|graph| occurrence(self.view, graph, paths, formula)).transpose();
         match occurrence {
             Ok(occurrence) => {
                 let Occurrence { vacuous, example } = occurrence.unwrap_or_default();
@@ -290,6 +327,23 @@ impl Judge<'_> {
             }
             Err(disagreement) => disagreed(&disagreement.to_string()),
         }
+    }
+
+    /// Whether a run that counts surely begins in a state.
+    pub(super) fn counts(&self, state: u32) -> bool {
+        self.fair.is_none_or(|fair| fair.paths.surely().contains(state as usize))
+    }
+
+    /// Why a requirement that no known run breaks cannot be said to hold, if so; `is_true` says that it is true of all initial states
+    /// that are known. It holds only if each initial state is known, and a run that counts surely begins there: what holds only
+    /// because no run counts is no answer.
+    pub(super) fn undecided(&self, is_true: bool) -> Option<String> {
+        let Self { graph, fair, .. } = *self;
+        if let Some(vain) = fair.and_then(|fair| fair.vain.as_ref()) {
+            return Some(vain.clone());
+        }
+        let begins = graph.knows_initial() && graph.initial().iter().all(|&state| self.counts(state));
+        (!(is_true && begins)).then(|| what_is_missing(graph))
     }
 
     /// Whether a formula holds in no state of a run that counts.
@@ -301,6 +355,15 @@ impl Judge<'_> {
         let labels = label(self.graph, &dag, &holds, paths);
         paths.map_or_else(|| labels.of(node).is_clear(), |paths| labels.of(node).is_disjoint(paths.surely()))
     }
+}
+
+/// A formula, its negation, and the states that satisfy each of their parts.
+pub(super) struct Labelled<'f> {
+    pub formula: &'f Bound,
+    pub dag: Dag,
+    pub yes: NodeId,
+    pub no: NodeId,
+    pub labels: Labels,
 }
 
 /// Whether a node says that something is possible, so that a path shows it.

@@ -14,6 +14,7 @@ mod independence;
 mod known;
 mod net;
 mod on_paths;
+mod possible;
 mod premises;
 mod remarks;
 mod remembering;
@@ -206,6 +207,8 @@ pub struct Report {
     pub exploration: Exploration,
     /// Under which assumptions the verdicts are proofs.
     pub assumptions: Vec<String>,
+    /// What was said of the program, its plants and its requirements before the check, and is no error: code, place and message.
+    pub warnings: Vec<String>,
     /// The requirements in the order they were given.
     pub answers: Vec<Answer>,
     /// What is checked without asking.

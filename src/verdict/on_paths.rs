@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 
 use super::check::{Judge, disagreed};
-use super::failing::what_is_missing;
 use super::fairness::states_where;
 use super::views::witness;
 use super::{Outcome, Vacuity};
@@ -16,7 +15,7 @@ impl Judge<'_> {
         let Self { view, graph, fair, budget } = *self;
         let none = Constraints::default();
         let constraints = fair.map_or(&none, |fair| fair.paths.constraints());
-        let open = match search(graph, path, constraints, &|atom| states_where(view, atom), budget) {
+        let is_true = match search(graph, path, constraints, &|atom| states_where(view, atom), budget) {
             Search::Found(found) => return self.violated(path, found),
             Search::Stopped(stop) => {
                 return Outcome::Unknown(format!("{stop} while the formula was followed along the paths"));
@@ -24,14 +23,11 @@ impl Judge<'_> {
             Search::TooLarge => {
                 return Outcome::Unknown("the formula is too large to be followed along paths".to_owned());
             }
-            Search::Open => true,
-            Search::None => false,
+            Search::Open => false,
+            Search::None => true,
         };
-        if let Some(vain) = fair.and_then(|fair| fair.vain.as_ref()) {
-            return Outcome::Unknown(vain.clone());
-        }
-        if open || !graph.knows_initial() {
-            return Outcome::Unknown(what_is_missing(graph));
+        if let Some(reason) = self.undecided(is_true) {
+            return Outcome::Unknown(reason);
         }
         let mut never = |premise: &Bound| graph.is_complete() && self.holds_nowhere(premise);
         let vacuous = path.vacuous_premise(&mut never).map(|premise| Vacuity::Nowhere(premise.text(view.system())));

@@ -5,9 +5,11 @@
 pub mod agreement;
 pub mod assembler;
 pub mod browser;
+pub mod constructs;
 pub mod contest;
 pub mod document;
 pub mod forms;
+pub mod indifference;
 pub mod naive_ctl;
 pub mod naive_ltl;
 pub mod naive_nets;

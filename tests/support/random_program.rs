@@ -89,6 +89,7 @@ pub fn device() -> impl Strategy<Value = Located> {
             net,
             places: vec![Span::default(); places],
             transitions: vec![Span::default(); transitions],
+            undeclared: Vec::new(),
             ids: None,
             units: None,
             not_safe: Vec::new(),

@@ -10,7 +10,7 @@ use super::random_wide_program::{BOOL, Entry, InOut, Of, Scope, Unit, literal};
 /// The list of a unit, with labels for the jumps in it. A function gets a result.
 pub fn body(choices: &mut Choices<'_>, scope: &mut Scope, statements: usize) -> String {
     let count = 1 + choices.pick(statements);
-    let mut writer = Writer { choices, scope, out: String::new(), label: 0, count };
+    let mut writer = Writer { choices, scope, out: String::new(), label: 0, count, forks: 0, lists: 0 };
     for number in 0..count {
         writer.label = number;
         let _ = writeln!(writer.out, "l{number}:");
@@ -27,6 +27,10 @@ pub struct Writer<'c, 'n> {
     /// The statement in the making, and how many there are.
     label: usize,
     count: usize,
+    /// How many statements are one of two.
+    forks: usize,
+    /// How many lists are open.
+    lists: usize,
 }
 
 impl Writer<'_, '_> {
@@ -36,7 +40,7 @@ impl Writer<'_, '_> {
     }
 
     fn statement(&mut self) {
-        match self.choices.pick(13) {
+        match self.choices.pick(15) {
             0 => {
                 self.value(BOOL, 0);
                 if let Some(place) = self.place(BOOL, true) {
@@ -57,6 +61,8 @@ impl Writer<'_, '_> {
                 self.line(operator);
             }
             4..7 if !self.scope.instances.is_empty() => self.instance(),
+            7 => self.either(),
+            8 | 9 if !self.scope.functions.is_empty() => self.called(),
             _ => self.assignment(),
         }
     }
@@ -72,6 +78,29 @@ impl Writer<'_, '_> {
                 self.line(&format!("{operator} {place}"));
             }
         }
+    }
+
+    /// What a function returns, stored if a variable can take it.
+    fn called(&mut self) {
+        let position = self.choices.pick(self.scope.functions.len());
+        let of = self.scope.functions[position].result.unwrap_or(BOOL);
+        self.function(of, 0);
+        if let Some(place) = self.place(of, true) {
+            self.line(&format!("ST {place}"));
+        }
+    }
+
+    /// One of two assignments; the unit may end with the first.
+    fn either(&mut self) {
+        let fork = self.forks;
+        self.forks += 1;
+        self.value(BOOL, 0);
+        self.line(&format!("JMPCN other{fork}"));
+        self.assignment();
+        let end = if self.choices.pick(3) == 0 { "RET".to_owned() } else { format!("JMP behind{fork}") };
+        self.line(&format!("{end}\nother{fork}:"));
+        self.assignment();
+        self.line(&format!("behind{fork}:"));
     }
 
     /// A statement that is executed one to three times.
@@ -120,6 +149,12 @@ impl Writer<'_, '_> {
             None => None,
             Some((name, InOut::Row)) => Some((name, self.scope.rows.first()?.clone())),
             Some((name, InOut::One(of))) => Some((name, self.bound(*of)?)),
+            Some((name, InOut::Counter)) => {
+                let counters = self.scope.instances.iter().filter(|(_, unit)| unit.name == "CTU");
+                let counters: Vec<String> = counters.map(|(name, _)| name.clone()).collect();
+                counters.first()?;
+                Some((name, self.choices.of(&counters.iter().map(String::as_str).collect::<Vec<_>>()).to_owned()))
+            }
         };
         let mut list = Vec::new();
         // By position, in-out variables come in the order of declaration: behind the inputs.
@@ -153,29 +188,45 @@ impl Writer<'_, '_> {
     pub fn enable(&mut self, list: &mut Vec<String>) {
         if self.choices.pick(6) == 0 {
             let value = if self.choices.pick(4) == 0 { self.list(BOOL) } else { self.operand(BOOL, true) };
-            list.insert(0, format!("EN := {value}"));
+            list.insert(self.choices.pick(list.len() + 1), format!("EN := {value}"));
         }
-        if self.choices.pick(6) == 0
-            && let Some(place) = self.place(BOOL, true)
-        {
+        if self.choices.pick(3) > 0 {
+            return;
+        }
+        // Often a variable that the call reads.
+        let is_written = |place: &str| {
+            let mut fits =
+                self.scope.entries.iter().filter(|entry| entry.written && entry.of == BOOL && entry.ranges.is_empty());
+            fits.any(|entry| format!("{}{}", entry.base, entry.member) == place)
+        };
+        let read = list.iter().filter_map(|argument| Some(argument.split_once(" := ")?.1.to_owned()));
+        let read: Vec<String> = read.filter(|place| is_written(place)).collect();
+        let place = match read.as_slice() {
+            [_, ..] if self.choices.flag() => Some(read[self.choices.pick(read.len())].clone()),
+            _ => self.place(BOOL, true),
+        };
+        if let Some(place) = place {
             let not = self.choices.of(&["", "NOT "]);
-            list.push(format!("{not}ENO => {place}"));
+            list.insert(self.choices.pick(list.len() + 1), format!("{not}ENO => {place}"));
         }
     }
 
-    /// `( LD x … )`: simple instructions only.
+    /// `( LD x … )`, with parentheses and calls.
     pub fn list(&mut self, of: Of) -> String {
         let outer = std::mem::take(&mut self.out);
-        self.load(of);
-        if self.choices.flag() {
-            self.simple(of);
+        self.lists += 1;
+        if self.lists < 3 && self.choices.flag() {
+            self.inner(of, 0);
+        } else {
+            self.load(of);
         }
+        self.lists -= 1;
         let list = std::mem::replace(&mut self.out, outer);
         format!("(\n{list})")
     }
 
     /// A variable to bind to an in-out variable.
-    fn bound(&mut self, of: Of) -> Option<String> {
+    pub fn bound(&mut self, of: Of) -> Option<String> {
         self.some_place(of, |entry| entry.written && entry.whole && !entry.base.contains(['.', '%']))
     }
 

@@ -57,6 +57,8 @@ pub enum InOut {
     One(Of),
     /// `ARRAY [0..3] OF SINT`
     Row,
+    /// `CTU`
+    Counter,
 }
 
 /// What a body can name.
@@ -95,6 +97,8 @@ pub fn literal(choices: &mut Choices<'_>, of: Of, anchored: bool) -> String {
     let number = ty.number(pattern);
     match ty.kind {
         _ if ty.is_bool() => if pattern == 1 { "TRUE" } else { "FALSE" }.to_owned(),
+        // Often a few scans.
+        Kind::Time if choices.flag() => format!("T#{}ms", choices.of(&[0, 10, 20, 30, 40, 50, 80, 256])),
         Kind::Time => format!("{}#{number}ms", choices.of(&["T", "TIME", "t"])),
         Kind::Bits if anchored => format!("{ty}#16#{pattern:X}"),
         Kind::Bits => match choices.pick(3) {
@@ -119,6 +123,7 @@ pub fn text(choices: &mut Choices<'_>) -> String {
     );
     let global = Of::Plain(choices.ty());
     text += &format!("VAR_GLOBAL g0 : {} := {}; END_VAR\n", global.name(), literal(choices, global, false));
+    text += "VAR_GLOBAL late : TON; END_VAR\nVAR_GLOBAL CONSTANT limit : USINT := 3; END_VAR\n";
     let mut making = Making { choices, types: [element, other].map(Of::Plain), global, units: Vec::new() };
     for number in 0..making.choices.pick(3) {
         text += &making.function(number);
@@ -126,7 +131,12 @@ pub fn text(choices: &mut Choices<'_>) -> String {
     for number in 0..making.choices.pick(3) {
         text += &making.block(number);
     }
-    text + &making.program()
+    text += &making.program();
+    if making.choices.pick(4) == 0 {
+        text += "CONFIGURATION plc TASK often (INTERVAL := T#10ms, PRIORITY := 1); PROGRAM one WITH often : random; \
+                 END_CONFIGURATION\n";
+    }
+    text
 }
 
 struct Making<'c, 'n> {
@@ -166,8 +176,15 @@ impl Making<'_, '_> {
             let of = self.of();
             let given = kind == "VAR CONSTANT" || (kind != "VAR_IN_OUT" && self.choices.pick(3) == 0);
             let initial = if given { format!(" := {}", literal(self.choices, of, false)) } else { String::new() };
-            text += &format!("{name} : {}{initial}; ", of.name());
-            scope.entry(name, of, written);
+            if of == PLAIN_INT && kind != "VAR_IN_OUT" && self.choices.flag() {
+                let initial = if given { format!(" := {}", self.choices.pick(20)) } else { String::new() };
+                text += &format!("{name} : Level{initial}; ");
+                scope.subrange(name, Vec::new(), "");
+                scope.entries.iter_mut().last().into_iter().for_each(|entry| entry.written = written);
+            } else {
+                text += &format!("{name} : {}{initial}; ", of.name());
+                scope.entry(name, of, written);
+            }
             list.push((name.clone(), of));
         }
         (format!("{kind} {text}END_VAR\n"), list)
@@ -187,10 +204,24 @@ impl Making<'_, '_> {
         let (out, outputs) = self.variables("VAR_OUTPUT", &outputs, &mut scope, true);
         let locals = self.names("z", 0, 1);
         let (own, _) = self.variables("VAR", &locals, &mut scope, true);
-        scope.entry(&name, result, true);
+        let mut own = own;
+        let in_out = (self.choices.pick(3) == 0).then(|| {
+            let of = self.of();
+            own += &format!("VAR_IN_OUT w : {}; END_VAR\n", of.name());
+            scope.entry("w", of, true);
+            ("w".to_owned(), InOut::One(of))
+        });
+        own += &self.composite(&mut scope, 12);
+        let is_subrange = result == PLAIN_INT && self.choices.flag();
+        if is_subrange {
+            scope.subrange(&name, Vec::new(), "");
+        } else {
+            scope.entry(&name, result, true);
+        }
         let body = body(self.choices, &mut scope, 2);
-        self.units.push(Unit { name: name.clone(), result: Some(result), inputs, outputs, in_out: None });
-        format!("FUNCTION {name} : {}\n{head}{out}{own}{}{body}END_FUNCTION\n", result.name(), loops(&scope))
+        self.units.push(Unit { name: name.clone(), result: Some(result), inputs, outputs, in_out });
+        let result = if is_subrange { "Level".to_owned() } else { result.name() };
+        format!("FUNCTION {name} : {result}\n{head}{out}{own}{}{body}END_FUNCTION\n", loops(&scope))
     }
 
     fn block(&mut self, number: usize) -> String {
@@ -203,7 +234,12 @@ impl Making<'_, '_> {
         let (own, temporary) = (self.names("z", 0, 2), self.names("t", 0, 1));
         let (mut own, _) = self.variables("VAR", &own, &mut scope, true);
         own += &self.variables("VAR_TEMP", &temporary, &mut scope, true).0;
-        let in_out = match self.choices.pick(4) {
+        let in_out = match self.choices.pick(5) {
+            2 => {
+                own += "VAR_IN_OUT w : CTU; END_VAR\n";
+                standard().iter().filter(|unit| unit.name == "CTU").for_each(|unit| scope.instance("w", unit));
+                Some(("w".to_owned(), InOut::Counter))
+            }
             0 => {
                 let of = self.of();
                 own += &format!("VAR_IN_OUT w : {}; END_VAR\n", of.name());
@@ -239,6 +275,16 @@ impl Making<'_, '_> {
         if self.choices.pick(4) == 0 {
             scope.entry("%IX0.3", BOOL, false);
             scope.entry("%QB4", Of::Plain(Type::new(Kind::Bits, 8)), true);
+            text += "VAR mem AT %MW6 : WORD := 16#12; lamp AT %QX9.1 : BOOL; key AT %IX2.0 : BOOL; END_VAR\n";
+            scope.entry("mem", Of::Plain(Type::new(Kind::Bits, 16)), true);
+            scope.entry("lamp", BOOL, true);
+            scope.entry("key", BOOL, false);
+        }
+        if self.choices.pick(4) == 0 {
+            text += "VAR_EXTERNAL limit : USINT; END_VAR\nVAR CONSTANT few : USINT := 2; END_VAR\n\
+                     VAR RETAIN kept : USINT := few; END_VAR\n";
+            let small = Of::Plain(Type::new(Kind::Unsigned, 8));
+            [("limit", false), ("few", false), ("kept", true)].map(|(name, written)| scope.entry(name, small, written));
         }
         let body = body(self.choices, &mut scope, 5);
         format!("PROGRAM random\n{text}{}{body}END_PROGRAM\n", loops(&scope))
@@ -282,6 +328,15 @@ impl Making<'_, '_> {
         text
     }
 
+    /// The global timer, named in one of six units.
+    fn late(&mut self, scope: &mut Scope) -> String {
+        if self.choices.pick(6) > 0 {
+            return String::new();
+        }
+        standard().iter().filter(|unit| unit.name == "TON").for_each(|unit| scope.instance("late", unit));
+        "VAR_EXTERNAL late : TON; END_VAR\n".to_owned()
+    }
+
     fn members(&self, base: &str, ranges: &[Vec<(i64, i64)>], scope: &mut Scope) {
         for (member, of) in [(".n", self.types[0]), (".b", BOOL), (".c", Of::Colour)] {
             scope.elements(base, ranges.to_vec(), member, of);
@@ -293,11 +348,30 @@ impl Making<'_, '_> {
 
     /// Instances of the function blocks so far and of those of the standard.
     fn instances(&mut self, scope: &mut Scope) -> String {
-        let mut text = String::new();
+        let mut text = self.late(scope);
         for unit in self.units.clone().iter().filter(|unit| unit.result.is_none()) {
             if self.choices.flag() {
-                text += &format!("VAR of_{0} : {0}; END_VAR\n", unit.name);
+                if self.choices.pick(4) == 0 {
+                    text += &format!("VAR all_{0} : ARRAY [1..2] OF {0}; END_VAR\n", unit.name);
+                    scope.instance(&format!("all_{}[2]", unit.name), unit);
+                }
+                let initial = match &unit.inputs[0] {
+                    (input, of) if *of != PLAIN_INT && self.choices.pick(3) == 0 => {
+                        format!(" := ({input} := {})", literal(self.choices, *of, false))
+                    }
+                    _ => String::new(),
+                };
+                text += &format!("VAR of_{0} : {0}{initial}; END_VAR\n", unit.name);
                 scope.instance(&format!("of_{}", unit.name), unit);
+                if let Some((_, InOut::Counter)) = unit.in_out
+                    && scope.instances.iter().all(|(name, _)| name != "counter")
+                {
+                    text += "VAR counter : CTU; END_VAR\n";
+                    standard()
+                        .iter()
+                        .filter(|unit| unit.name == "CTU")
+                        .for_each(|unit| scope.instance("counter", unit));
+                }
                 if let Some((_, InOut::Row)) = unit.in_out
                     && scope.rows.iter().all(|row| row != "sints")
                 {

@@ -3,7 +3,7 @@
 use petril::semantics::{Kind, Type};
 
 use super::random_wide_body::{Writer, is_bits};
-use super::random_wide_program::{BOOL, Of, Unit};
+use super::random_wide_program::{BOOL, InOut, Of, Unit};
 
 impl Writer<'_, '_> {
     /// Some type that variables have.
@@ -18,6 +18,11 @@ impl Writer<'_, '_> {
         match choice {
             5 | 6 if of == BOOL => self.comparison(depth),
             5 => match (of, self.some()) {
+                (Of::Plain(to), Of::Plain(from)) if self.choices.pick(4) == 0 => {
+                    let mut list = vec![format!("IN := {}", self.operand(Of::Plain(from), true))];
+                    self.enable(&mut list);
+                    self.line(&format!("{from}_TO_{to}({})", list.join(", ")));
+                }
                 (Of::Plain(to), Of::Plain(from)) => {
                     self.value(Of::Plain(from), depth + 1);
                     self.line(&format!("{from}_TO_{to}"));
@@ -34,26 +39,72 @@ impl Writer<'_, '_> {
     }
 
     /// A function of the file, called in one of the two ways.
-    fn function(&mut self, of: Of, depth: usize) {
+    pub fn function(&mut self, of: Of, depth: usize) {
         let functions = self.scope.functions.iter().filter(|unit| unit.result == Some(of)).cloned();
         let functions: Vec<Unit> = functions.collect();
         if functions.is_empty() {
             return self.load(of);
         }
         let unit = &functions[self.choices.pick(functions.len())];
-        if self.choices.flag() {
-            self.value(unit.inputs[0].1, depth + 1);
-            let others: Vec<String> = unit.inputs[1..].iter().map(|(_, of)| self.operand(*of, true)).collect();
-            return self.line(format!("{} {}", unit.name, others.join(", ")).trim_end());
+        let in_out = match &unit.in_out {
+            Some((_, InOut::One(of))) => self.bound(*of).map(Some),
+            _ => Some(None),
+        };
+        match in_out {
+            Some(in_out) if self.choices.flag() => {
+                self.value(unit.inputs[0].1, depth + 1);
+                let others = unit.inputs[1..].iter().map(|(_, of)| self.operand(*of, true));
+                let others: Vec<String> = others.chain(in_out).collect();
+                self.line(format!("{} {}", unit.name, others.join(", ")).trim_end());
+            }
+            _ => self.enclosed(unit),
         }
-        let arguments = self.arguments(unit, false).unwrap_or_default();
-        self.line(&format!("{}({arguments})", unit.name));
+    }
+
+    /// A call of a function with all its arguments in parentheses, or a load where it cannot be called.
+    fn enclosed(&mut self, unit: &Unit) {
+        match self.arguments(unit, true) {
+            Some(arguments) => self.line(&format!("{}({arguments})", unit.name)),
+            None => self.load(unit.result.unwrap_or(BOOL)),
+        }
     }
 
     /// A standard function, called with all arguments in parentheses.
     fn standard(&mut self, of: Of) {
         let mut arguments: Vec<(&str, Of)> = vec![("IN0", of), ("IN1", of)];
-        let word = match self.choices.pick(6) {
+        let small = Of::Plain(Type::new(Kind::Unsigned, 8));
+        let word = match self.choices.pick(9) {
+            6 if of == BOOL => {
+                let of = self.some();
+                arguments = vec![("IN1", of), ("IN2", of), ("IN3", of)];
+                let pair = self.choices.flag() || of == Of::Colour;
+                arguments.truncate(if pair { 2 } else { 3 });
+                self.choices.of(if of == Of::Colour {
+                    &["EQ", "NE"]
+                } else if pair {
+                    &COMPARISONS
+                } else {
+                    &COMPARISONS[1..]
+                })
+            }
+            7 if is_bits(of) && of != BOOL => {
+                arguments = vec![("IN", of), ("N", small)];
+                self.choices.of(&["SHL", "SHR", "ROL", "ROR"])
+            }
+            8 if is_bits(of) => {
+                arguments = vec![("IN", of)];
+                "NOT"
+            }
+            7 if is_integer(of) => {
+                arguments = vec![("IN", of)];
+                "ABS"
+            }
+            8 if is_integer(of) => {
+                arguments = vec![("IN1", of), ("IN2", of)];
+                let Of::Plain(ty) = of else { return self.load(of) };
+                let operators = self.operators(ty);
+                self.choices.of(operators)
+            }
             0 => {
                 arguments.insert(0, ("G", BOOL));
                 "SEL"
@@ -100,7 +151,7 @@ impl Writer<'_, '_> {
     fn comparison(&mut self, depth: usize) {
         let of = self.some();
         self.value(of, depth + 1);
-        let operators: &[&str] = if of == Of::Colour { &["EQ", "NE"] } else { &["GT", "GE", "EQ", "NE", "LE", "LT"] };
+        let operators: &[&str] = if of == Of::Colour { &["EQ", "NE"] } else { &COMPARISONS };
         let operator = self.choices.of(operators);
         if operator != "NE" && self.choices.pick(6) == 0 {
             let (a, b) = (self.operand(of, false), self.operand(of, false));
@@ -133,15 +184,14 @@ impl Writer<'_, '_> {
     }
 
     /// The inside of a parenthesis, which begins with a load or a call with all its arguments.
-    fn inner(&mut self, of: Of, depth: usize) {
+    pub fn inner(&mut self, of: Of, depth: usize) {
         match self.choices.pick(4) {
             0 => self.standard(of),
             1 if self.scope.functions.iter().any(|unit| unit.result == Some(of)) => {
                 let functions = self.scope.functions.iter().filter(|unit| unit.result == Some(of)).cloned();
                 let functions: Vec<Unit> = functions.collect();
                 let unit = &functions[self.choices.pick(functions.len())];
-                let arguments = self.arguments(unit, false).unwrap_or_default();
-                self.line(&format!("{}({arguments})", unit.name));
+                self.enclosed(unit);
             }
             _ => self.load(of),
         }
@@ -193,6 +243,10 @@ impl Writer<'_, '_> {
                     (self.choices.of(&["MIN", "MAX", "LIMIT"]), self.operand(of, false), self.operand(of, false));
                 self.line(&format!("{word} {a}, {b}"));
             }
+            (3, Of::Plain(ty)) if is_integer(of) && ty.width == 8 => {
+                let (a, b) = (self.operand(of, false), self.operand(of, false));
+                self.line(&format!("MUX {a}, {b}"));
+            }
             (3, _) if of == BOOL => {
                 let (a, b) = (self.operand(of, false), self.operand(of, false));
                 self.line(&format!("SEL {a}, {b}"));
@@ -211,11 +265,18 @@ impl Writer<'_, '_> {
     }
 }
 
+/// Only `NE` does not take more than two values.
+const COMPARISONS: [&str; 6] = ["NE", "GT", "GE", "EQ", "LE", "LT"];
+
+fn is_integer(of: Of) -> bool {
+    matches!(of, Of::Plain(ty) if matches!(ty.kind, Kind::Signed | Kind::Unsigned))
+}
+
 fn is_number(of: Of) -> bool {
     matches!(of, Of::Plain(ty) if ty.kind != Kind::Bits)
 }
 
 /// Whether a function has the name of an operator, and is told from it by the names of its arguments.
 fn is_operator(word: &str) -> bool {
-    matches!(word, "AND" | "OR" | "XOR" | "ADD" | "SUB")
+    !matches!(word, "SEL" | "MUX" | "MOVE" | "LIMIT" | "MIN" | "MAX" | "ABS")
 }

@@ -123,8 +123,8 @@ impl<'p> Reference<'p> {
                 Cell::Parts(members.map(|(i, m)| self.cell(&m.shape, given(i).unwrap_or(&m.initial))).collect())
             }
             Shape::Instance(id) => {
-                let variables = self.program.pous[id].variables.iter();
-                Cell::Parts(variables.map(|v| self.cell(&v.shape, &v.initial)).collect())
+                let variables = self.program.pous[id].variables.iter().enumerate();
+                Cell::Parts(variables.map(|(i, v)| self.cell(&v.shape, given(i).unwrap_or(&v.initial))).collect())
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::cli::{Failure, output, reason, shown};
 
 /// Writes what was asked for about all programs that could be checked.
 pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
-    forms::refuse_twice(forms)?;
+    forms::refuse(forms)?;
     let done = || results.iter().filter_map(|result| Some((result, result.done.as_ref().ok()?)));
     let told: Vec<(&str, Checked<'_>, Stamp)> =
         done().map(|(result, done)| (result.name.as_str(), done.told(), stamp(done.started))).collect();

@@ -21,9 +21,9 @@ use crate::cli::args::Check;
 use crate::cli::cache::Cache;
 use crate::cli::check::{Done, checked, code};
 use crate::cli::console::{Console, Told};
-use crate::cli::progress::{Watcher, listen, use_threads};
+use crate::cli::progress::{Watcher, use_threads};
 use crate::cli::report::Text;
-use crate::cli::{Failure, Outcome};
+use crate::cli::{Failure, Outcome, guard};
 
 /// A program of the project that was checked, or could not be.
 pub struct Judged {
@@ -47,7 +47,7 @@ pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
     let checks = entries.into_iter().map(|entry| Ok((arguments(&entry, given)?, entry)));
     let checks: Vec<(Check, Entry)> = checks.collect::<Result<_, Failure>>()?;
     use_threads(&command.limits)?;
-    listen();
+    guard::listen();
     let cache = if command.no_cache { None } else { Cache::open(Some(&path), console) };
     let results = all(checks, cache.as_ref(), console);
     forms::write(&command.forms, &results)?;

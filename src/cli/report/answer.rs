@@ -18,6 +18,9 @@ impl Text<'_> {
         if answer.recalled {
             out += &self.told("known from an earlier run");
         }
+        if let Some(remark) = &answer.remark {
+            out += &self.told(&format!("{}: {remark}", self.console.paint("mind", Colour::Doubtful)));
+        }
         match &answer.outcome {
             Outcome::Unknown(reason) => out += &self.told(&format!("because {reason}")),
             Outcome::Holds { vacuous, witness, example } => {

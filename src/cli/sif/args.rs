@@ -1,10 +1,12 @@
 //! The arguments of `petril sif`.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Subcommand;
 use petril::sif::Criterion;
 
+use crate::cli::args::Bounds;
 use crate::cli::meaning::Meaning;
 
 /// The verbs on safety functions.
@@ -37,6 +39,27 @@ impl SifVerb {
             Self::Tests(arguments) => arguments.json,
         }
     }
+
+    /// The limits on the work.
+    pub fn bounds(&self) -> Bounds {
+        match self {
+            // What a solver does not decide in a minute is reported to be open.
+            Self::Check(SifCheck { bounds, .. }) => {
+                Bounds { timeout: bounds.timeout.or(Some(Duration::from_secs(60))), ..*bounds }
+            }
+            Self::Excluded(arguments) => arguments.bounds,
+            Self::Import(arguments) => arguments.bounds,
+            Self::Prove(arguments) => arguments.bounds,
+            Self::Requirements(arguments) => arguments.bounds,
+            Self::Run(arguments) => arguments.bounds,
+            Self::Tests(arguments) => arguments.bounds,
+        }
+    }
+
+    /// Whether there is an answer that can be incomplete.
+    pub fn has_verdict(&self) -> bool {
+        matches!(self, Self::Check(_) | Self::Prove(_) | Self::Run(_) | Self::Tests(_))
+    }
 }
 
 /// `petril sif check`
@@ -48,9 +71,9 @@ pub struct SifCheck {
     /// Print one JSON document.
     #[arg(long)]
     pub json: bool,
-    /// Stop after this many seconds; what is open then is said.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
-    pub timeout: f64,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// `petril sif requirements`
@@ -69,6 +92,9 @@ pub struct SifRequirements {
     /// Where to write; standard output if not given.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// `petril sif prove`
@@ -95,17 +121,12 @@ pub struct SifProve {
     /// How many scans runs and inductions may have.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub scans: u16,
-    /// Give up after this many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    pub timeout: Option<std::time::Duration>,
     /// Print one JSON document.
     #[arg(long)]
     pub json: bool,
-}
-
-fn seconds(text: &str) -> Result<std::time::Duration, String> {
-    let number = text.parse().map_err(|_| format!("`{text}` is no number of seconds"))?;
-    std::time::Duration::try_from_secs_f64(number).map_err(|error| error.to_string())
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// `petril sif run`
@@ -156,6 +177,9 @@ pub struct SifRun {
     /// What the PLC does where the standard leaves it open.
     #[command(flatten)]
     pub meaning: Meaning,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// `petril sif tests`
@@ -205,6 +229,9 @@ pub struct SifTests {
     /// Write a table (CSV) with one row for each test.
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     pub csv: Option<PathBuf>,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// `petril sif excluded`
@@ -222,6 +249,9 @@ pub struct SifExcluded {
     /// List at most so many valuations of a function; if there are more, cubes stand for them.
     #[arg(long, value_name = "N", default_value_t = 4096)]
     pub limit: usize,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// A criterion by its name.
@@ -247,4 +277,7 @@ pub struct SifImport {
     /// Where to write; standard output if not given.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }

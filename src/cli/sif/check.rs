@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use petril::diagnostic::Diagnostic;
 use petril::printable::line;
@@ -14,25 +13,24 @@ use serde_json::{Value, json};
 use super::args::SifCheck;
 use super::specification;
 use crate::cli::console::Console;
-use crate::cli::progress::{is_interrupted, listen};
-use crate::cli::{Failure, Outcome, SUCCESS, report::counted};
+use crate::cli::{Outcome, SUCCESS, guard, report::counted};
 
 /// What is said instead of a number.
 const TOO_MANY: &str = "more than can be counted";
 
 pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
-    let limit = Duration::try_from_secs_f64(arguments.timeout)
-        .map_err(|error| Failure::Message(format!("--timeout: {error}")))?;
     let read = specification(&arguments.specification, console)?;
     let specification = &read.specification;
-    listen();
-    let findings = check(specification, &within(limit));
+    guard::listen();
+    guard::phase("asking whether the specification makes sense");
+    let stop: Stop = Arc::new(guard::is_asked);
+    let findings = check(specification, &stop);
     for (file, source) in read.sources.iter().enumerate() {
         let here = findings.iter().filter(|finding| finding.place.file == file);
         let diagnostics: Vec<Diagnostic> = here.map(|finding| finding.diagnostic(specification)).collect();
         console.diagnostics(&diagnostics, source);
     }
-    let stop = within(limit);
+    guard::phase("counting valuations");
     let counts: Vec<Vec<Counts>> =
         (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
     if arguments.json {
@@ -46,12 +44,6 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
         () if has(Doubt::NotDecided) => ExitCode::from(3),
         () => SUCCESS,
     })
-}
-
-/// Stops the work after some time, or where whoever started it wants it to end.
-fn within(limit: Duration) -> Stop {
-    let started = Instant::now();
-    Arc::new(move || started.elapsed() > limit || is_interrupted())
 }
 
 /// What there is, and how many valuations each output has.

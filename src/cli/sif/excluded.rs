@@ -9,10 +9,10 @@ use petril::witness::{Column, Table};
 use super::args::SifExcluded;
 use super::{planned, specification, valuations};
 use crate::cli::console::Console;
-use crate::cli::{Outcome, SUCCESS, progress};
+use crate::cli::{Outcome, SUCCESS, guard};
 
 pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
-    progress::listen();
+    guard::listen();
     let read = specification(&arguments.specification, console)?;
     let functions = planned::functions(&arguments.function, &read.specification)?;
     let limits = Limits { tests: arguments.limit, ..planned::limits() };

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
-use crate::cli::{Failure, progress, shown};
+use crate::cli::{Failure, guard, shown};
 
 /// The positions of functions by their names; all of them if none is named.
 pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<usize>, Failure> {
@@ -41,7 +41,7 @@ pub fn left_out(specification: &Specification, plans: &[Plan], limits: &Limits) 
 
 /// The usual limits, until somebody interrupts the work.
 pub fn limits() -> Limits {
-    Limits { stop: Arc::new(progress::is_interrupted), ..Limits::default() }
+    Limits { stop: Arc::new(guard::is_asked), ..Limits::default() }
 }
 
 /// The tests of a table, of these functions, with the faults that they find.

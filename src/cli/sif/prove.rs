@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::Instant;
 
 use petril::exchange::proof as exchanged;
 use petril::printable::line;
@@ -18,7 +17,7 @@ use super::args::SifProve;
 use super::{planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::report::{counted, indent};
-use crate::cli::{self, check, input, progress};
+use crate::cli::{self, check, guard, input};
 
 pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     let (program, specifications) = split(&arguments.files)?;
@@ -30,11 +29,12 @@ pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     let tolerated = arguments.meaning.tolerated();
     let subject = Subject::new(&read.specification, &program.flat, tolerated, &functions)
         .map_err(|found| unbound(&found, &read.sources, console))?;
-    progress::listen();
-    let (started, timeout) = (Instant::now(), arguments.timeout);
-    let stop = move || progress::is_interrupted() || timeout.is_some_and(|timeout| started.elapsed() > timeout);
-    let options = Options { scans: arguments.scans.into(), stop: Arc::new(stop), ..Options::default() };
-    let proof = prove(&subject, &options);
+    guard::listen();
+    guard::phase("proving");
+    let options = Options { scans: arguments.scans.into(), stop: Arc::new(guard::is_asked), ..Options::default() };
+    let mut proof = prove(&subject, &options);
+    let warnings = console.warnings();
+    proof.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
     let told = Told { subject: &subject, source: &program.source, sources: &read.sources, proof: &proof, console };
     if arguments.json {
         console.print_json(exchanged::proof(&subject, &proof, &program.source))?;

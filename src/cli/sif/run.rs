@@ -18,17 +18,17 @@ use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Failure, Outcome, SUCCESS, forms, output, progress, shown};
+use crate::cli::{Failure, Outcome, SUCCESS, forms, guard, output};
 
 /// So many tests or faults are told one by one.
 const MAX_TOLD: usize = 40;
 
 pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
-    refuse_twice(arguments)?;
-    progress::listen();
+    guard::listen();
     let started = Instant::now();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     let Program { flat, source } = program(&arguments.program, &arguments.meaning.reading, console)?;
+    output::refuse([&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = planned::limits();
     let plans = match &arguments.tests {
@@ -81,11 +81,10 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
 
 /// What a program with a fault is that passes all tests: a proof says whether it computes what is specified.
 fn decide(specification: &Specification, program: &FlatProgram, tolerated: Tolerated, functions: &[usize]) -> Fate {
-    if progress::is_interrupted() {
+    if guard::is_asked() {
         return Fate::Undecided("the work was stopped".to_owned());
     }
-    let options =
-        Options { scans: 4, conflicts: 20_000, stop: Arc::new(progress::is_interrupted), ..Options::default() };
+    let options = Options { scans: 4, conflicts: 20_000, stop: Arc::new(guard::is_asked), ..Options::default() };
     // What the program stands for was found for the one without the fault.
     let Ok(subject) = Subject::new(specification, program, tolerated, functions) else {
         return Fate::Undecided("a restriction speaks of what the program does not have".to_owned());
@@ -103,16 +102,6 @@ fn decide(specification: &Specification, program: &FlatProgram, tolerated: Toler
             Fate::Undecided(why.or(failing).unwrap_or_default())
         }
     }
-}
-
-/// Refuses two forms in one file.
-fn refuse_twice(arguments: &SifRun) -> Result<(), Failure> {
-    let mut names = BTreeSet::new();
-    let mut files = [&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten();
-    files.find(|name| !names.insert(*name)).map_or(Ok(()), |twice| {
-        let message = format!("`{}` cannot be two things: give each form a file of its own", shown(twice));
-        Err(Failure::Message(message))
-    })
 }
 
 /// The whole report.

@@ -12,7 +12,7 @@ use super::args::SifTests;
 use super::{Read, planned, specification, valuations};
 use crate::cli::console::Console;
 use crate::cli::report::counted;
-use crate::cli::{Outcome, SUCCESS, output, progress};
+use crate::cli::{Outcome, SUCCESS, guard, output};
 
 /// Of so many functions the tests are printed; of more, only figures.
 const MAX_SHOWN: usize = 5;
@@ -21,8 +21,9 @@ const MAX_SHOWN: usize = 5;
 const MAX_TOLD: usize = 100;
 
 pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
-    progress::listen();
+    guard::listen();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
+    output::refuse([&arguments.html, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = Limits { tests: arguments.limit, ..planned::limits() };
     if arguments.compare {

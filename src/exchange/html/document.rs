@@ -61,6 +61,7 @@ pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
         "complete": report.exploration.complete,
         "covered": covered(checked),
         "assumptions": report.assumptions,
+        "warnings": report.warnings,
         "remarks": remarks(checked),
         "net": sizes,
         "variables": variables,
@@ -144,6 +145,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
     };
     set("sentence", answer.sentence.clone().map(Value::from));
     set("words", answer.words.clone().map(Value::from));
+    set("remark", answer.remark.clone().map(Value::from));
     set("reason", checked.reason(answer).map(Value::from));
     set("tags", Some(tags(answer).collect::<Vec<_>>()).filter(|tags| !tags.is_empty()).map(Value::from));
     set("origin", checked.file_of(answer).map(|o| format!("{}:{}:{}", o.file, o.line, o.column).into()));

@@ -20,6 +20,9 @@ pub fn fallback(checked: &Checked<'_>) -> String {
     for assumption in &report.assumptions {
         let _ = writeln!(out, "<li>assumed: {}</li>", markup(assumption));
     }
+    for warning in &report.warnings {
+        let _ = writeln!(out, "<li>warning: {}</li>", escape(warning));
+    }
     out += "</ul>\n";
     for answer in checked.answers() {
         let verdict = answer.outcome.verdict().word();

@@ -60,6 +60,7 @@ function facts() {
         `${how[0].toUpperCase()}${how.slice(1)}.`),
       covered()),
     html("div", { class: "panel" }, html("h2", {}, "Assumed"), html("ul", {}, data.assumptions.map((text) => html("li", {}, coded(text))))),
+    data.warnings.length > 0 && html("div", { class: "panel" }, html("h2", {}, "Warnings"), html("ul", {}, data.warnings.map((text) => html("li", {}, coded(text))))),
     data.remarks.length > 0 && html("div", { class: "panel wide" }, html("h2", {}, "Worth knowing"),
       html("ul", {}, data.remarks.map(([text]) => html("li", {}, coded(text))))));
 }
@@ -173,6 +174,7 @@ function fill(panel, answer) {
     answer.words && answer.sentence && line("Means", coded(answer.words)),
     (answer.sentence || answer.words) && line("Formula", html("code", {}, answer.formula)),
     answer.origin && line("Stands in", html("span", { class: "file" }, answer.origin)),
+    answer.remark && answer.runs.length > 0 && line("Mind", coded(answer.remark)),
     answer.reason && answer.runs.length === 0 && line(answer.verdict === "unknown" ? "Unknown because" : "Mind", coded(answer.reason)),
     answer.verdict === "holds" && line("Verdict", `proved on all ${data.explored[0][1].toLocaleString("en")} states, under the assumptions above`));
   panel.replaceChildren(facts, answer.why ? explanation(answer.why, counterexample) : "", ...stages.map((stage) => stage.element));

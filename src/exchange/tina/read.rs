@@ -49,6 +49,8 @@ fn load(source: &Source) -> Result<Located, Trouble> {
         // The grammar reads any text, so this is a limit of the parser itself.
         Err(error) => diagnostics.push(expected::diagnostic(&error, source.text(), 0)),
     }
+    let is_undeclared = |&place: &usize| assembly.declared[place].is_none();
+    assembly.draft.undeclared = (0..assembly.draft.places.len()).filter(is_undeclared).collect();
     let name = assembly.name.map(|name| name.text);
     assembly.draft.finish(|| name.unwrap_or_else(|| file_stem(source)), diagnostics)
 }

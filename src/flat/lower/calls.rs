@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use super::layout::{Leaf, direct, is_kept};
 use super::places::Address;
-use super::{Frame, Lowering};
+use super::{Frame, Label, Lowering};
 use crate::flat::{Instruction, Operand, Target};
 use crate::semantics::{
-    self, Call, Callee, Condition, Enable, Feed, FeedSource, PouId, PouKind, Role, Scalar, Section, Shape, Type, VarId,
+    self, Call, Callee, Condition, Enable, Feed, FeedSource, Place, Pou, PouId, PouKind, Role, Scalar, Section, Shape,
+    Type, VarId,
 };
 use crate::source::Span;
 
@@ -26,28 +27,13 @@ impl<'p> Lowering<'p> {
         let pou = self.pou(id);
         let result = pou.variables.iter().position(|variable| variable.section == Section::Result);
         let callee_span = if pou.is_library { Some(span) } else { frame.span };
-        // What is in parentheses may call the same function, so it is computed before anything is handed over.
-        let en = call.enable.en.as_ref().and_then(|feed| self.ready(frame, feed, depth));
-        let ready: Vec<Option<VarId>> = call.inputs.iter().map(|(_, feed)| self.ready(frame, feed, depth)).collect();
+        let is_function = pou.kind == PouKind::Function;
+        self.enabled(frame, &call.enable, (skip, depth), span);
         if let Some((input, ty)) = call.result_to {
             let ty = frame.pou.types[ty.0];
             self.hand_over(&pou.variables[input].shape, variables[input], ty, span);
         }
-        let is_function = pou.kind == PouKind::Function;
-        if is_function && call.enable.en.is_some() {
-            let view = Frame { pou, variables: variables.clone(), depth, exit: done, span: callee_span };
-            result.into_iter().for_each(|position| self.initialise(&view, position, span));
-        }
-        self.enable(frame, &call.enable, en, (skip, depth), span);
-        for ((input, feed), ready) in call.inputs.iter().zip(&ready) {
-            let ty = frame.pou.types[feed.ty.0];
-            match ready {
-                Some(buffer) => self.load_variable(ty, *buffer, feed.span),
-                None => self.load_feed(frame, feed, depth),
-            }
-            self.hand_over(&pou.variables[*input].shape, variables[*input], ty, feed.span);
-        }
-        ready.into_iter().chain([en]).flatten().for_each(|buffer| self.release(buffer));
+        self.inputs(frame, call, pou, &variables, depth);
         let mut held = Vec::new();
         for (position, place) in &call.in_outs {
             let address = self.address(frame, place, None, span);
@@ -70,14 +56,21 @@ impl<'p> Lowering<'p> {
         }
         self.body(&inner);
         self.place_label(exit);
-        for (output, negated, place) in &call.outputs {
-            let Some(scalar) = pou.variables[*output].shape.scalar() else { continue };
-            let Some(from) = inner.variables[*output] else { continue };
-            self.load(scalar.ty, Operand::Place(from.target()), span);
-            self.store_in(frame, scalar.ty, *negated, place, span);
-        }
+        let (before, after) = call.outputs.split_at(call.before_eno);
+        self.outputs(frame, &inner, before, span);
+        self.eno(frame, &call.enable, true, span);
+        self.outputs(frame, &inner, after, span);
         held.into_iter().for_each(|index| self.let_go(index));
-        self.place_label(skip);
+        if call.enable.en.is_some() {
+            let executed = self.label();
+            self.jump(Condition::Always, executed, span);
+            self.place_label(skip);
+            if is_function {
+                result.into_iter().for_each(|position| self.initialise(&inner, position, span));
+            }
+            self.eno(frame, &call.enable, false, span);
+            self.place_label(executed);
+        }
         if let (Some(position), true) = (result, is_function)
             && let (Some(scalar), Some(from)) = (pou.variables[position].shape.scalar(), inner.variables[position])
         {
@@ -86,14 +79,39 @@ impl<'p> Lowering<'p> {
         self.place_label(done);
     }
 
-    /// A list is computed into a buffer.
-    fn ready(&mut self, frame: &Frame<'p>, feed: &Feed, depth: usize) -> Option<VarId> {
-        let FeedSource::List(list) = &feed.source else { return None };
+    /// Hands over the inputs, from left to right.
+    fn inputs(&mut self, frame: &Frame<'p>, call: &Call, pou: &Pou, variables: &[Option<Address>], depth: usize) {
+        // The variables of a function are those of all its calls, and a list may be one; an instance has its own.
+        let early = if pou.kind == PouKind::Function { early(call.inputs.iter().map(|(_, feed)| feed)) } else { 0 };
+        let ready: Vec<VarId> = call.inputs[..early].iter().map(|(_, feed)| self.ready(frame, feed, depth)).collect();
+        for (position, (input, feed)) in call.inputs.iter().enumerate() {
+            let ty = frame.pou.types[feed.ty.0];
+            match ready.get(position) {
+                Some(&buffer) => self.load_variable(ty, buffer, feed.span),
+                None => self.load_feed(frame, feed, depth),
+            }
+            self.hand_over(&pou.variables[*input].shape, variables[*input], ty, feed.span);
+        }
+        ready.into_iter().for_each(|buffer| self.release(buffer));
+    }
+
+    /// Writes outputs of what was called to variables of the caller.
+    fn outputs(&mut self, frame: &Frame<'p>, inner: &Frame<'p>, outputs: &[(usize, bool, Place)], span: Span) {
+        for (output, negated, place) in outputs {
+            let Some(scalar) = inner.pou.variables[*output].shape.scalar() else { continue };
+            let Some(from) = inner.variables[*output] else { continue };
+            self.load(scalar.ty, Operand::Place(from.target()), span);
+            self.store_in(frame, scalar.ty, *negated, place, span);
+        }
+    }
+
+    /// Computes a value into a buffer.
+    pub fn ready(&mut self, frame: &Frame<'p>, feed: &Feed, depth: usize) -> VarId {
         let ty = frame.pou.types[feed.ty.0];
-        self.sequence(frame, list, depth + 1);
+        self.load_feed(frame, feed, depth);
         let buffer = self.acquire(ty, ty.width);
-        self.store(ty, buffer, feed.span);
-        Some(buffer)
+        self.store(ty, buffer, frame.span.unwrap_or(feed.span));
+        buffer
     }
 
     /// Makes a value the current result.
@@ -111,31 +129,19 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// `EN` and `ENO`: goes to `skip` if the call is not to be executed. The value of `EN` may be in a buffer already.
-    pub fn enable(
-        &mut self,
-        frame: &Frame<'p>,
-        enable: &Enable,
-        ready: Option<VarId>,
-        (skip, depth): (super::Label, usize),
-        span: Span,
-    ) {
-        match (&enable.en, &enable.eno) {
-            (None, None) => {}
-            (None, Some((negated, place))) => {
-                self.load(Type::BOOL, Operand::Constant(1), span);
-                self.store_in(frame, Type::BOOL, *negated, place, span);
-            }
-            (Some(en), eno) => {
-                match ready {
-                    Some(buffer) => self.load_variable(Type::BOOL, buffer, frame.span.unwrap_or(en.span)),
-                    None => self.load_feed(frame, en, depth),
-                }
-                if let Some((negated, place)) = eno {
-                    self.store_in(frame, Type::BOOL, *negated, place, span);
-                }
-                self.jump(Condition::IfFalse, skip, span);
-            }
+    /// `EN`: goes to `skip` if the call is not to be executed.
+    pub fn enabled(&mut self, frame: &Frame<'p>, enable: &Enable, (skip, depth): (Label, usize), span: Span) {
+        if let Some(en) = &enable.en {
+            self.load_feed(frame, en, depth);
+            self.jump(Condition::IfFalse, skip, span);
+        }
+    }
+
+    /// `ENO`: gets whether the call was executed.
+    pub fn eno(&mut self, frame: &Frame<'p>, enable: &Enable, executed: bool, span: Span) {
+        if let Some((negated, place)) = &enable.eno {
+            self.load(Type::BOOL, Operand::Constant(u64::from(executed)), span);
+            self.store_in(frame, Type::BOOL, *negated, place, span);
         }
     }
 
@@ -204,4 +210,11 @@ impl<'p> Lowering<'p> {
             }
         }
     }
+}
+
+/// Number of arguments up to the last list. They are computed before any of them is used, from left to right: a list may call
+/// what writes the variables that stand before it.
+pub fn early<'f>(arguments: impl Iterator<Item = &'f Feed>) -> usize {
+    let last = arguments.enumerate().filter(|(_, feed)| matches!(feed.source, FeedSource::List(_))).last();
+    last.map_or(0, |(position, _)| position + 1)
 }

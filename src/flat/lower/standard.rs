@@ -1,5 +1,6 @@
 //! Standard functions, written out.
 
+use super::calls::early;
 use super::{Frame, Lowering};
 use crate::flat::{Function, Hazard, Instruction, Operand, Target};
 use crate::semantics::{Condition, Feed, FeedSource, Standard, StandardFunction, Type, VarId};
@@ -16,47 +17,49 @@ impl<'p> Lowering<'p> {
     pub fn standard(&mut self, frame: &Frame<'p>, standard: &Standard, depth: usize, span: Span) {
         let ty = frame.pou.types[standard.ty.0];
         let (skip, done) = (self.label(), self.label());
-        self.enable(frame, &standard.enable, None, (skip, depth), span);
-        let Some((first, rest)) = standard.arguments.split_first() else { return };
+        self.enabled(frame, &standard.enable, (skip, depth), span);
+        let Some(first) = standard.arguments.first() else { return };
         let first_ty = frame.pou.types[first.ty.0];
+        let early = early(standard.arguments.iter());
+        let ready: Vec<VarId> = standard.arguments[..early].iter().map(|feed| self.ready(frame, feed, depth)).collect();
         // Nothing may disturb the current result once the first argument is in it.
-        let mut buffers = Vec::new();
         let kept = matches!(first.source, FeedSource::Result).then_some(first_ty);
+        let rest = standard.arguments.iter().enumerate().skip(1);
         let rest: Vec<Argument> =
-            rest.iter().map(|feed| self.argument(frame, feed, kept, depth, &mut buffers)).collect();
-        self.load_feed(frame, first, depth);
+            rest.map(|(position, feed)| self.argument(frame, feed, ready.get(position).copied(), kept)).collect();
+        match ready.first() {
+            Some(&buffer) => self.load_variable(first_ty, buffer, span),
+            None => self.load_feed(frame, first, depth),
+        }
         self.apply(standard.function, first_ty, ty, &rest, span);
         for argument in rest {
             self.release_address(argument.operand);
         }
-        buffers.into_iter().for_each(|buffer| self.release(buffer));
+        ready.into_iter().for_each(|buffer| self.release(buffer));
+        if standard.enable.eno.is_some() {
+            let value = self.acquire(ty, ty.width);
+            self.store(ty, value, span);
+            self.eno(frame, &standard.enable, true, span);
+            self.load_variable(ty, value, span);
+            self.release(value);
+        }
         if standard.enable.en.is_some() {
             self.jump(Condition::Always, done, span);
             self.place_label(skip);
+            self.eno(frame, &standard.enable, false, span);
             self.load(ty, Operand::Constant(0), span);
             self.place_label(done);
         }
     }
 
-    fn argument(
-        &mut self,
-        frame: &Frame<'p>,
-        feed: &Feed,
-        kept: Option<Type>,
-        depth: usize,
-        buffers: &mut Vec<VarId>,
-    ) -> Argument {
+    /// An argument that is in a buffer already, or an operand.
+    fn argument(&mut self, frame: &Frame<'p>, feed: &Feed, ready: Option<VarId>, kept: Option<Type>) -> Argument {
         let ty = frame.pou.types[feed.ty.0];
-        let span = frame.span.unwrap_or(feed.span);
-        let operand = match &feed.source {
-            FeedSource::Operand(operand) => self.operand(frame, operand, kept, span),
-            _ => {
-                self.load_feed(frame, feed, depth);
-                let buffer = self.acquire(ty, ty.width);
-                self.store(ty, buffer, span);
-                buffers.push(buffer);
-                Operand::Place(Target::Variable(buffer))
-            }
+        let operand = match (ready, &feed.source) {
+            (None, FeedSource::Operand(operand)) => self.operand(frame, operand, kept, frame.span.unwrap_or(feed.span)),
+            (Some(buffer), _) => Operand::Place(Target::Variable(buffer)),
+            // The current result is the first argument, and a list is in a buffer.
+            (None, FeedSource::Result | FeedSource::List(_)) => Operand::Constant(0),
         };
         Argument { ty, operand }
     }

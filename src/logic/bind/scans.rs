@@ -132,11 +132,8 @@ fn is_true(past: Past) -> Bound {
     Bound::Compare(Comparison::Unequal, Term::Past(Arc::new(past)), Term::Number(0))
 }
 
-/// The formula has been true at the ends of this scan and of `n` before it.
+/// The formula has been true at the ends of this scan and of `n` before it. Power-on is the end of no scan, also for `n` = 0.
 fn held(f: Bound, n: u64) -> Bound {
-    if n == 0 {
-        return f;
-    }
     let most = u32::try_from(n + 1).unwrap_or(u32::MAX);
     let run = Term::Past(Arc::new(Past::Run { of: f, most }));
     Bound::Compare(Comparison::AtLeast, run, Term::Number(most.into()))

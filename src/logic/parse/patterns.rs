@@ -14,6 +14,8 @@ use crate::source::Span;
 pub enum Body {
     /// A formula.
     Formula(Formula),
+    /// That some run from power-on makes a formula true.
+    Possible(Formula),
     /// That some scan comes to every line.
     EveryLine,
 }
@@ -234,7 +236,9 @@ fn made_of(pattern: Pattern, parts: Vec<Part>, span: Span) -> Option<Body> {
             let (a, then) = (next()?, make.implies(next()?, next()?));
             make.always(make.implies(a, make.temporal(Quantifier::All, Temporal::Next, then)))
         }
-        Reachability if count == 1 => make.temporal(Quantifier::Some, Temporal::Finally, next()?),
+        Reachability if count == 1 => {
+            return Some(Body::Possible(make.temporal(Quantifier::Some, Temporal::Finally, next()?)));
+        }
         Repeatability if count == 1 => make.always(make.temporal(Quantifier::Some, Temporal::Finally, next()?)),
         LeadsTo if count == 2 => {
             let (a, b) = (next()?, next()?);

@@ -25,7 +25,8 @@ impl Typing<'_> {
 
     fn empty(&self, condition: Condition, callee: Callee) -> Call {
         let (inputs, in_outs, outputs) = (Vec::new(), Vec::new(), Vec::new());
-        Call { condition, callee, result_to: None, inputs, in_outs, outputs, enable: Enable::default() }
+        let enable = Enable::default();
+        Call { condition, callee, result_to: None, inputs, in_outs, outputs, enable, before_eno: 0 }
     }
 
     /// An instance that is called. `None` has been reported.
@@ -203,6 +204,9 @@ impl Typing<'_> {
         let block = &context.project.pou(id).name.text;
         let Some((position, symbol)) = symbols.find(name) else {
             if self.enable(argument, name, &mut call.enable) {
+                if matches!(argument, Argument::Output { .. }) {
+                    call.before_eno = call.outputs.len();
+                }
                 return Some(());
             }
             let message = format!("`{block}` has no parameter `{name}`");

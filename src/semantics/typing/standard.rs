@@ -73,12 +73,11 @@ impl Typing<'_> {
         let Some(feeds) = self.standard_arguments(name, &signature, arguments, span, result, &mut enable) else {
             return (None, self.types.fresh());
         };
-        let value = self.demands(name, signature.function, &feeds, span);
-        let standard = Standard { function: signature.function, ty: value, arguments: feeds, enable };
-        let value = match signature.function {
-            StandardFunction::Chain(_) => self.types.boolean(span),
-            _ => value,
+        let value = match (signature.function, self.demands(name, signature.function, &feeds, span)) {
+            (StandardFunction::Chain(_), _) => self.types.boolean(span),
+            (_, value) => value,
         };
+        let standard = Standard { function: signature.function, ty: value, arguments: feeds, enable };
         (Some(Action::Standard(Box::new(standard))), value)
     }
 

@@ -15,7 +15,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Instruction, Operation};
 use crate::syntax::consume::{self, Piece};
 use crate::syntax::parse::{IlParser, Rule};
-use crate::syntax::{comments, expected};
+use crate::syntax::{comments, expected, nesting};
 use crate::xml::{attribute, tag};
 
 /// These cannot stand in XML; the grammar knows them.
@@ -29,7 +29,7 @@ pub struct Pieces(BTreeMap<usize, Piece>);
 impl Pieces {
     /// Reads every instruction list and initial value below an element.
     pub fn of(root: Node<'_, '_>, text: &str) -> (Self, Vec<Diagnostic>) {
-        let mut gathered = Gathered { text, out: vec![b'.'; text.len()], end: 0, unclosed: BTreeMap::new() };
+        let mut gathered = Gathered { text, out: vec![b'.'; text.len()], end: 0, unread: BTreeMap::new() };
         for node in root.descendants().filter(Node::is_element) {
             match tag(node) {
                 "IL" => gathered.body(node),
@@ -37,14 +37,14 @@ impl Pieces {
                 _ => {}
             }
         }
-        let unclosed = gathered.unclosed;
+        let unread = gathered.unread;
         let text = String::from_utf8_lossy(&gathered.out);
         let mut pieces = match IlParser::parse(Rule::pieces, &text) {
             Ok(mut pairs) => pairs.next().map(consume::pieces).unwrap_or_default(),
             // The grammar reads any text, so this is a limit of the parser itself.
             Err(error) => return (Self(BTreeMap::new()), vec![expected::diagnostic(&error, &text, 0)]),
         };
-        for (start, diagnostic) in unclosed {
+        for (start, diagnostic) in unread {
             // What an open comment hides is missing everywhere: no more than its opening is worth telling.
             let span = diagnostic.span();
             let body = vec![Instruction { label: None, operation: Some(Operation::Broken), span }];
@@ -65,15 +65,18 @@ struct Gathered<'a> {
     out: Vec<u8>,
     /// Where the last piece ends.
     end: usize,
-    unclosed: BTreeMap<usize, Diagnostic>,
+    /// Why a list is not read, by the offset where it begins.
+    unread: BTreeMap<usize, Diagnostic>,
 }
 
 impl Gathered<'_> {
     fn body(&mut self, node: Node<'_, '_>) {
         let Some(range) = content(node, self.text).filter(|range| range.start > self.end) else { return };
         let (list, unclosed) = comments::blank(&plain(&self.text[range.clone()]), range.start);
-        if let Some(unclosed) = unclosed {
-            self.unclosed.insert(range.start, unclosed);
+        let too_deep = nesting::too_deep(&list, range.start);
+        let list = if too_deep.is_some() { " ".repeat(list.len()) } else { list };
+        if let Some(unread) = unclosed.or(too_deep) {
+            self.unread.insert(range.start, unread);
         }
         // A line end before the mark ends the last instruction; an end tag has room for both.
         self.put(BODY, range.clone(), &list);

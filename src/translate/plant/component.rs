@@ -44,6 +44,14 @@ pub struct PlantTransition {
     pub tests: Vec<(VarId, u64)>,
 }
 
+impl PlantTransition {
+    /// Whether it asks an output for two values at once.
+    fn contradicts_itself(&self) -> bool {
+        let differs = |&(output, value): &(VarId, u64)| self.tests.iter().any(|&(o, v)| o == output && v != value);
+        self.tests.iter().any(differs)
+    }
+}
+
 /// A reachable marking of a component.
 #[derive(Clone, Debug)]
 pub struct LocalMarking {
@@ -69,6 +77,15 @@ impl Component {
     #[must_use]
     pub fn drives(&self, input: VarId) -> bool {
         self.places.iter().any(|place| place.drives.iter().any(|&(variable, _)| variable == input))
+    }
+
+    /// The transitions that can never fire, by position: whatever the outputs are, no marking that can be reached enables them.
+    #[must_use]
+    pub fn dead_transitions(&self) -> Vec<usize> {
+        let mut fires = vec![false; self.transitions.len()];
+        self.markings.iter().flat_map(|marking| &marking.moves).for_each(|step| fires[step.transition] = true);
+        let (transitions, fires) = (&self.transitions, &fires);
+        (0..fires.len()).filter(|&position| !fires[position] || transitions[position].contradicts_itself()).collect()
     }
 
     /// The markings it can come to from `from` by any number of moves while the outputs keep their values, each with the

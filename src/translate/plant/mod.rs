@@ -6,6 +6,7 @@
 //! is a device of its own that moves independently of the others; the PLC stops and frees each through a blocking place.
 
 mod component;
+mod doubts;
 mod markings;
 mod read;
 
@@ -26,16 +27,17 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// Adds the devices of a net.
+    /// Adds the devices of a net, and returns what is doubtful about them.
     ///
     /// # Errors
     /// Everything that keeps the net from being a plant of this program: unknown variables, a net that is not safe, inputs
     /// with no value or several. Nothing is added then.
-    pub fn add(&mut self, net: &Located, program: &FlatProgram) -> Result<(), Vec<Diagnostic>> {
-        let components = read::components(net, program, self)?;
-        self.components.extend(components);
+    pub fn add(&mut self, net: &Located, program: &FlatProgram) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+        let devices = read::devices(net, program, self)?;
+        let warnings = doubts::warnings(net, &devices);
+        self.components.extend(devices.into_iter().map(|device| device.component));
         self.names.push(net.net.name().to_owned());
-        Ok(())
+        Ok(warnings)
     }
 
     /// The component that drives an input, if one does.

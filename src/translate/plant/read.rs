@@ -29,8 +29,15 @@ impl Meaning {
     }
 }
 
-/// The components of a net.
-pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Result<Vec<Component>, Vec<Diagnostic>> {
+/// A component, with the nodes of the net it is made of.
+pub struct Device {
+    pub component: Component,
+    pub places: Vec<PlaceId>,
+    pub transitions: Vec<TransitionId>,
+}
+
+/// The devices of a net.
+pub fn devices(file: &Located, program: &FlatProgram, others: &Plant) -> Result<Vec<Device>, Vec<Diagnostic>> {
     let net = &file.net;
     let mut errors = Vec::new();
     if others.names().iter().any(|name| name == net.name()) {
@@ -47,6 +54,7 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
             Err(error) => errors.extend(messages.insert(error.message.clone()).then_some(error)),
         }
     }
+    errors.extend(valuations_twice(file, &meanings));
     if !errors.is_empty() {
         return Err(errors);
     }
@@ -56,22 +64,21 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
         let help = "name its places by the values they stand for, like `S1=1,O1=0`";
         return Err(vec![Diagnostic::new(Code::PlantVariableUnfit, span, message).help(help)]);
     }
-    let components = split(file, &meanings, &mut errors);
+    let devices = split(file, &meanings, &mut errors);
     let taken: BTreeSet<&str> = others.components.iter().flat_map(names).collect();
-    if let Some(twice) = components.iter().flat_map(|(component, _)| names(component)).find(|name| taken.contains(name))
-    {
+    if let Some(twice) = devices.iter().flat_map(|device| names(&device.component)).find(|name| taken.contains(name)) {
         let span = file.places.first().or(file.transitions.first()).copied().unwrap_or_default();
         let message = format!("two plants have something named `{twice}`");
         errors.push(Diagnostic::new(Code::PlantNameTwice, span, message).help("give one of the nets another name"));
     }
-    let components: Vec<Component> = components
+    let devices: Vec<Device> = devices
         .into_iter()
-        .filter_map(|(mut component, places)| {
-            let explored = markings::explore(&mut component, &places, file, program);
-            explored.map_err(|error| errors.push(*error)).ok().map(|()| component)
+        .filter_map(|mut device| {
+            let explored = markings::explore(&mut device.component, &device.places, file, program);
+            explored.map_err(|error| errors.push(*error)).ok().map(|()| device)
         })
         .collect();
-    let all: Vec<&Component> = others.components.iter().chain(&components).collect();
+    let all: Vec<&Component> = others.components.iter().chain(devices.iter().map(|device| &device.component)).collect();
     for input in program.with_role(Role::Input) {
         if all.iter().filter(|component| component.drives(input)).count() > 1 {
             let giving = net.place_ids().filter(
@@ -86,7 +93,34 @@ pub fn components(file: &Located, program: &FlatProgram, others: &Plant) -> Resu
             errors.push(diagnostic.help("let one connected net hold all places that give this input a value"));
         }
     }
-    if errors.is_empty() { Ok(components) } else { Err(errors) }
+    if errors.is_empty() { Ok(devices) } else { Err(errors) }
+}
+
+/// Two places that give the same inputs the same values are one by what they say, and two in the net: the same valuation in another
+/// spelling is not what the transitions of the first one see.
+fn valuations_twice(file: &Located, meanings: &[Meaning]) -> Vec<Diagnostic> {
+    let mut first: BTreeMap<Vec<(VarId, u64)>, PlaceId> = BTreeMap::new();
+    let mut errors = Vec::new();
+    for (place, meaning) in file.net.place_ids().zip(meanings) {
+        let Meaning::Own(values) = meaning else { continue };
+        let mut valuation = values.clone();
+        valuation.sort_unstable();
+        if valuation.is_empty() {
+            continue;
+        }
+        let earlier = *first.entry(valuation).or_insert(place);
+        if earlier == place {
+            continue;
+        }
+        let (name, other) = (file.net.place(place).name, file.net.place(earlier).name);
+        let message = format!("`{name}` and `{other}` are two places that stand for one valuation");
+        errors.push(
+            Diagnostic::new(Code::PlantValuationTwice, file.place_span(place), message)
+                .also(file.place_span(earlier), "the other is this one")
+                .help(format!("write `{other}` here, too; what else there is to remember belongs in internal places")),
+        );
+    }
+    errors
 }
 
 /// What a place is to the program; `position` is that of its diagnostic, if there will be one.
@@ -167,8 +201,8 @@ fn names(component: &Component) -> impl Iterator<Item = &str> {
     places.chain(transitions).chain([component.name.as_str()])
 }
 
-/// The connected components, each with the net's places it is made of. Outputs connect nothing.
-fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> Vec<(Component, Vec<PlaceId>)> {
+/// The connected components. Outputs connect nothing.
+fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> Vec<Device> {
     let net = &file.net;
     let offset = net.places().len();
     let is_own = |place: &PlaceId| matches!(meanings[place.index()], Meaning::Own(_));
@@ -235,7 +269,7 @@ fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> 
                 transitions: transitions.iter().map(transition).collect(),
                 markings: Vec::new(),
             };
-            (component, places)
+            Device { component, places, transitions }
         })
         .collect()
 }

@@ -151,6 +151,7 @@ impl Known {
                 .into_iter()
                 .chain(self.found_assumptions.iter().cloned())
                 .collect(),
+            warnings: Vec::new(),
             answers: answers(system, requirements, options, outcomes)
                 .into_iter()
                 .chain(asserted)

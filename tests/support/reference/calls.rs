@@ -8,53 +8,50 @@ use petril::semantics::{
 use super::{Cell, Done, Frame, Location, Reference, TooLong, complement, stays};
 
 impl<'p> Reference<'p> {
+    /// A call that is not enabled does nothing but write FALSE to `ENO`; the value of a function is then what it begins with.
+    /// Else inputs get their values from left to right, the body is executed, and outputs are written in the order of the text,
+    /// `ENO` among them.
     pub(super) fn call(&mut self, frame: &Frame<'p>, call: &'p Call) -> Done {
         if !self.is(call.condition) {
             return Ok(());
         }
-        let given = self.result;
         let program = self.program;
         let (Callee::Instance(id, _) | Callee::Function(id)) = &call.callee;
-        let pou = &program.pous[id];
         let base = match &call.callee {
             Callee::Instance(_, place) => Some(self.location(frame, place)),
             Callee::Function(_) => None,
         };
-        // Lists are computed before anything is handed over, that of `EN` first.
-        let en = self.list(frame, call.enable.en.as_ref())?;
-        let lists = call.inputs.iter().map(|(_, feed)| self.list(frame, Some(feed)));
-        let lists: Vec<Option<u64>> = lists.collect::<Result<_, _>>()?;
-        let inner = Frame { pou, variables: self.variables(*id, base.as_ref()) };
-        let executed = self.enable(frame, &call.enable, en)?;
-        if executed {
+        let given = self.result;
+        let is_enabled = self.enabled(frame, &call.enable)?;
+        let memory = self.memory.len();
+        let pou = &program.pous[id];
+        let mut inner = Frame { pou, variables: self.variables(*id, base.as_ref()) };
+        if is_enabled {
             if let Some((input, _)) = call.result_to {
                 self.hand_over(&inner, input, given);
             }
-            for ((input, feed), list) in call.inputs.iter().zip(lists) {
-                let value = match (list, &feed.source) {
-                    (Some(value), _) => value,
-                    (None, FeedSource::Operand(operand)) => self.operand(frame, operand),
-                    (None, _) => given,
-                };
+            for (input, feed) in &call.inputs {
+                let value = self.value_of(frame, feed, given)?;
                 self.hand_over(&inner, *input, value);
             }
-            let mut variables = inner.variables;
             for (position, place) in &call.in_outs {
-                variables[*position] = Some(self.location(frame, place));
+                inner.variables[*position] = Some(self.location(frame, place));
             }
-            let inner = Frame { pou, variables };
             self.body(&inner)?;
-            for (output, negated, place) in &call.outputs {
-                self.result = self.variable(&inner, *output);
-                let ty = pou.variables[*output].shape.scalar().map_or(Type::BOOL, |scalar| scalar.ty);
-                self.store(frame, ty, *negated, place);
-            }
-            self.take_result(&inner);
-        } else if let Some((input, _)) = call.result_to {
-            panic!("an input operator has no EN, but gives {input}");
-        } else {
-            self.take_result(&inner);
         }
+        for (position, (output, negated, place)) in call.outputs.iter().enumerate().filter(|_| is_enabled) {
+            if position == call.before_eno {
+                self.eno(frame, &call.enable, is_enabled);
+            }
+            self.result = self.variable(&inner, *output);
+            let ty = pou.variables[*output].shape.scalar().map_or(Type::BOOL, |scalar| scalar.ty);
+            self.store(frame, ty, *negated, place);
+        }
+        if call.before_eno == call.outputs.len() || !is_enabled {
+            self.eno(frame, &call.enable, is_enabled);
+        }
+        self.take_result(&inner);
+        self.memory.truncate(memory);
         Ok(())
     }
 
@@ -89,28 +86,28 @@ impl<'p> Reference<'p> {
         variables
     }
 
-    fn list(&mut self, frame: &Frame<'p>, feed: Option<&'p Feed>) -> Result<Option<u64>, TooLong> {
-        let Some(Feed { source: FeedSource::List(list), .. }) = feed else { return Ok(None) };
-        self.sequence(frame, list)?;
-        Ok(Some(self.result))
-    }
-
-    /// Whether a call is executed; `ENO` gets it.
-    fn enable(&mut self, frame: &Frame<'p>, enable: &'p Enable, list: Option<u64>) -> Result<bool, TooLong> {
-        let enabled = match (list, enable.en.as_ref().map(|feed| &feed.source)) {
-            (Some(value), _) => value,
-            (None, Some(FeedSource::Operand(operand))) => self.operand(frame, operand),
-            (None, Some(FeedSource::List(list))) => {
+    /// What an argument is worth now.
+    fn value_of(&mut self, frame: &Frame<'p>, feed: &'p Feed, given: u64) -> Result<u64, TooLong> {
+        Ok(match &feed.source {
+            FeedSource::Result => given,
+            FeedSource::Operand(operand) => self.operand(frame, operand),
+            FeedSource::List(list) => {
                 self.sequence(frame, list)?;
                 self.result
             }
-            (None, _) => 1,
-        };
+        })
+    }
+
+    fn enabled(&mut self, frame: &Frame<'p>, enable: &'p Enable) -> Result<bool, TooLong> {
+        let Some(en) = &enable.en else { return Ok(true) };
+        Ok(self.value_of(frame, en, 0)? & 1 == 1)
+    }
+
+    fn eno(&mut self, frame: &Frame<'p>, enable: &'p Enable, executed: bool) {
         if let Some((negated, place)) = &enable.eno {
-            self.result = enabled;
+            self.result = u64::from(executed);
             self.store(frame, Type::BOOL, *negated, place);
         }
-        Ok(enabled & 1 == 1)
     }
 
     fn hand_over(&mut self, frame: &Frame<'p>, position: usize, value: u64) {
@@ -123,27 +120,21 @@ impl<'p> Reference<'p> {
 
     pub(super) fn standard(&mut self, frame: &Frame<'p>, standard: &'p Standard) -> Done {
         let given = self.result;
-        if !self.enable(frame, &standard.enable, None)? {
-            self.result = 0;
-            return Ok(());
-        }
+        let is_enabled = self.enabled(frame, &standard.enable)?;
+        let value = if is_enabled { self.apply(frame, standard, given)? } else { 0 };
+        self.eno(frame, &standard.enable, is_enabled);
+        self.result = value;
+        Ok(())
+    }
+
+    /// The value of a standard function.
+    fn apply(&mut self, frame: &Frame<'p>, standard: &'p Standard, given: u64) -> Result<u64, TooLong> {
         let ty = |feed: &Feed| frame.pou.types[feed.ty.0];
-        // The first argument comes last.
-        let mut values = vec![0; standard.arguments.len()];
-        let order = (1..values.len()).chain([0]);
-        for position in order {
-            values[position] = match &standard.arguments[position].source {
-                FeedSource::Result => given,
-                FeedSource::Operand(operand) => self.operand(frame, operand),
-                FeedSource::List(list) => {
-                    self.sequence(frame, list)?;
-                    self.result
-                }
-            };
-        }
+        let arguments = standard.arguments.iter();
+        let values: Vec<u64> = arguments.map(|feed| self.value_of(frame, feed, given)).collect::<Result<_, _>>()?;
         let from = ty(&standard.arguments[0]);
         let to = frame.pou.types[standard.ty.0];
-        self.result = match standard.function {
+        Ok(match standard.function {
             StandardFunction::Convert => self.convert(from, to, values[0]),
             StandardFunction::Move => values[0],
             StandardFunction::Not => complement(to, true, values[0]),
@@ -169,7 +160,6 @@ impl<'p> Reference<'p> {
                 let all = pairs.into_iter().map(|(left, right)| self.compute(function, from, left, right));
                 u64::from(all.fold(true, |so_far, holds| so_far & (holds == 1)))
             }
-        };
-        Ok(())
+        })
     }
 }

@@ -1,0 +1,188 @@
+//! Limits of the whole process, in every phase of its work. Work that asks whether to stop reports what it has found; work
+//! that does not is ended a little later, with a message.
+
+use std::fmt;
+use std::io::{self, Write};
+use std::process::exit;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+
+use super::args::Bounds;
+use super::{memory, output};
+
+/// Why work is to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// Whoever started the program wants it to end.
+    Interrupted,
+    /// The time limit was reached.
+    Time(Duration),
+    /// The limit on memory was reached, in MiB, by what is in use.
+    Memory { limit: u64, used: u64 },
+}
+
+impl Reason {
+    /// The reason that more memory is in use than this limit, in MiB.
+    pub fn memory(limit: u64) -> Self {
+        Self::Memory { limit, used: used() }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Interrupted => write!(f, "interrupted"),
+            Self::Time(limit) => write!(f, "the time limit of {} s was reached", limit.as_secs_f64()),
+            Self::Memory { limit, used } => write!(f, "the limit of {limit} MiB was reached: {used} MiB are in use"),
+        }
+    }
+}
+
+/// How a verb is ended that does not end itself.
+#[derive(Clone, Copy)]
+pub struct Ending {
+    /// Whether the verb has a verdict, which is then unknown.
+    pub has_verdict: bool,
+    pub wants_json: bool,
+}
+
+struct Guard {
+    started: Instant,
+    timeout: Option<Duration>,
+    /// Limit on memory, in MiB.
+    memory: u64,
+}
+
+static GUARD: OnceLock<Guard> = OnceLock::new();
+static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
+/// Memory in use, in MiB.
+static USED: AtomicU64 = AtomicU64::new(0);
+/// Whether the work asks if it is to stop.
+static IS_ASKING: AtomicBool = AtomicBool::new(false);
+/// Threads that wait for a reader of their output.
+static PAUSED: AtomicUsize = AtomicUsize::new(0);
+static PHASE: Mutex<&str> = Mutex::new("starting");
+
+/// Time between two looks at clock and memory.
+const TICK: Duration = Duration::from_millis(10);
+
+/// A signal so soon after another is the same one, sent to the program and to its group.
+const TWICE: Duration = Duration::from_millis(500);
+
+/// Memory of a process beside that of its work, in MiB.
+const BASE: u64 = 64;
+
+/// Keeps the limits from now on. Ctrl-C asks the work to stop, and the second one ends the program.
+pub fn start(bounds: &Bounds, ending: Ending) {
+    let guard = Guard { started: Instant::now(), timeout: bounds.timeout, memory: bounds.memory() };
+    let guard = GUARD.get_or_init(|| guard);
+    // If nobody can be told, signals end the program as usual.
+    let _ = ctrlc::set_handler(|| {
+        if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
+            output::discard_unfinished();
+            exit(130);
+        }
+    });
+    let _ = thread::Builder::new().name("guard".to_owned()).spawn(move || guard.keep(ending));
+}
+
+/// From now on, the work asks whether it is to stop, and gets the time to report what it has found.
+pub fn listen() {
+    IS_ASKING.store(true, Ordering::Relaxed);
+}
+
+/// Why the work is to stop, if it is.
+pub fn asked() -> Option<Reason> {
+    if is_interrupted() {
+        return Some(Reason::Interrupted);
+    }
+    let guard = GUARD.get()?;
+    if let Some(limit) = guard.timeout.filter(|&limit| guard.started.elapsed() > limit) {
+        return Some(Reason::Time(limit));
+    }
+    (used() > guard.memory).then(|| Reason::memory(guard.memory))
+}
+
+/// Whether the work is to stop.
+pub fn is_asked() -> bool {
+    asked().is_some()
+}
+
+/// Whether whoever started the program wants it to end.
+pub fn is_interrupted() -> bool {
+    INTERRUPTED.get().is_some()
+}
+
+/// Memory in use, in MiB.
+pub fn used() -> u64 {
+    USED.load(Ordering::Relaxed)
+}
+
+/// Names the phase that begins.
+pub fn phase(name: &'static str) {
+    *PHASE.lock().unwrap_or_else(PoisonError::into_inner) = name;
+}
+
+/// Does something that may wait for a reader of output, who may take any time.
+pub fn pause<T>(work: impl FnOnce() -> T) -> T {
+    PAUSED.fetch_add(1, Ordering::SeqCst);
+    let done = work();
+    PAUSED.fetch_sub(1, Ordering::SeqCst);
+    done
+}
+
+/// The time at which work is ended that was asked to stop at another one: less than half as much again and a second.
+fn grace(asked: Duration) -> Duration {
+    asked.mul_f64(1.4) + Duration::from_millis(800)
+}
+
+impl Guard {
+    fn keep(&self, ending: Ending) {
+        let mut since = None;
+        loop {
+            thread::sleep(TICK);
+            // A system that does not tell leaves memory to the limits that the work keeps itself.
+            let used = memory::resident().unwrap_or_default() >> 20;
+            USED.store(used, Ordering::Relaxed);
+            let Some(reason) = asked() else {
+                since = None;
+                continue;
+            };
+            let now = self.started.elapsed();
+            let end = if IS_ASKING.load(Ordering::Relaxed) { grace(*since.get_or_insert(now)) } else { now };
+            let is_overdue = now >= end || used > self.memory.saturating_mul(14) / 10 + BASE;
+            let is_paused = PAUSED.load(Ordering::SeqCst) > 0;
+            if is_overdue && (!is_paused || reason == Reason::Interrupted) {
+                self.end(reason, ending, is_paused);
+            }
+        }
+    }
+
+    /// Ends the process. Where a reader keeps others waiting, nothing more is printed.
+    fn end(&self, reason: Reason, ending: Ending, is_paused: bool) {
+        output::discard_unfinished();
+        let is_interrupted = reason == Reason::Interrupted;
+        if !is_paused {
+            let phase = *PHASE.lock().unwrap_or_else(PoisonError::into_inner);
+            let seconds = self.started.elapsed().as_secs_f64();
+            let message = format!("{reason}, while {phase}, after {seconds:.1} s with {} MiB", used());
+            let verdict = if ending.has_verdict { "unknown" } else { "error" };
+            let _ = writeln!(io::stderr(), "{verdict}: {message}");
+            if ending.wants_json {
+                let document = json!({ "verdict": verdict, "error": message, "diagnostics": [] });
+                let _ = writeln!(io::stdout(), "{document:#}");
+            }
+        }
+        exit(if ending.has_verdict && !is_paused {
+            3
+        } else if is_interrupted {
+            130
+        } else {
+            2
+        });
+    }
+}
