@@ -21,7 +21,7 @@ pub fn fallback(checked: &Checked<'_>) -> String {
         let _ = writeln!(out, "<li>assumed: {}</li>", markup(assumption));
     }
     for warning in &report.warnings {
-        let _ = writeln!(out, "<li>warning: {}</li>", escape(warning));
+        let _ = writeln!(out, "<li>warning: {}</li>", markup(warning));
     }
     out += "</ul>\n";
     for answer in checked.answers() {
