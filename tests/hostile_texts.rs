@@ -145,10 +145,12 @@ fn nets_say_nothing_of_their_own() {
         // Whoever reads a format gets the names back: all of them, or all that XML can hold.
         petril(folder, &["net", "convert", model, "-o", "again.pnml"]);
         let document = json(&petril(folder, &["net", "explore", "again.pnml", "--json"]));
-        let kept = if model == "evil.net" { EVIL.replace('\u{1b}', "\\u{1b}") } else { evil_in_xml() };
+        // A carriage return in a text file is a line end like others.
+        let of_text = EVIL.replace('\r', "\n");
+        let kept = if model == "evil.net" { of_text.replace('\u{1b}', "\\u{1b}") } else { evil_in_xml() };
         assert_eq!(document["net"], format!("{kept}n"));
         let document = json(&petril(folder, &["net", "explore", model, "--json"]));
-        let kept = if model == "evil.net" { EVIL.to_owned() } else { evil_in_xml() };
+        let kept = if model == "evil.net" { of_text } else { evil_in_xml() };
         assert_eq!(document["never_enabled"], serde_json::json!([]));
         assert_eq!(document["deadlock"], serde_json::json!({ format!("{kept}b"): 1 }));
         must_be_silent(model, &petril(folder, &["net", "info", model, "--json"]));
@@ -172,16 +174,15 @@ fn program(folder: &Path) {
     write(folder, "p.il", &text);
     let name = |what: &str| format!("{{{what}{}}}", EVIL.replace('\\', "\\\\"));
     let plant = format!(
-        "net {}\npl {{a=0}} (1)\npl {{a=1}}\npl {}\ntr {} {{a=0}} -> {{a=1}}\ntr {} {{a=1}} -> {{a=0}}\n",
+        "net {}\npl {{a=0}} (1)\npl {{a=1}}\ntr {} {{a=0}} -> {{a=1}}\ntr {} {{a=1}} -> {{a=0}}\n",
         name("n"),
-        name("p"),
         name("on"),
         name("off")
     );
     write(folder, "p.net", &plant);
     let requirements = format!(
         "requirement one \"={line}\" [author: \"{line}\"]: AG !q;\nrequirement two \"{line}\": AG (q <-> a);\n\
-         requirement three \"{line}\": EF q;\nassume known \"{line}\": a = a;\n"
+         requirement three \"{line}\": EF q;\n"
     );
     write(folder, "p.req", &requirements);
 }

@@ -2,6 +2,7 @@
 
 use petril::diagnostic::{any_error, nearest};
 use petril::flat::{FlatProgram, flatten};
+use petril::printable;
 use petril::source::Source;
 use petril::translate::{Plant, System};
 use petril::{draw, semantics, syntax};
@@ -42,7 +43,8 @@ fn single(operator: &str) -> Result<(FlatProgram, usize), Failure> {
     let unknown = || {
         let hint = nearest(&operator, OPERATORS).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
         Failure::Message(format!(
-            "there is no picture of `{operator}`{hint}\n  the operators there are pictures of: {}",
+            "there is no picture of `{}`{hint}\n  the operators there are pictures of: {}",
+            printable::line(&operator),
             OPERATORS.join(" ")
         ))
     };

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif, vcd};
+use petril::printable;
 use petril::verdict::{Answer, Trace};
 
 use super::{Failure, guard, output, reason, shown};
@@ -44,7 +45,7 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
         output::write_text(file, &junit::write(checked, stamp))?;
     }
     if let Some(file) = &forms.sarif {
-        output::write_text(file, &format!("{}\n", sarif::write(checked, stamp)))?;
+        output::write_text(file, &printable::json(&format!("{}\n", sarif::write(checked, stamp))))?;
     }
     if let Some(file) = &forms.csv {
         output::write_text(file, &report_csv::write(checked))?;

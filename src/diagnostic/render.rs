@@ -66,6 +66,19 @@ fn shortened(message: &str) -> String {
     message.chars().filter_map(keep).collect()
 }
 
+/// A text with signs of as many bytes in the place of what would not show as itself: offsets stay right. The renderer has signs of
+/// its own for the control characters of one byte.
+fn visible(text: &str) -> String {
+    let sign = |c: char| match c.len_utf8() {
+        _ if printable::is_printable(c) => c,
+        1 => c,
+        2 => '·',
+        3 => char::REPLACEMENT_CHARACTER,
+        _ => '\u{1F5C6}',
+    };
+    text.chars().map(sign).collect()
+}
+
 /// Only the lines the labels touch go to the renderer: it reads all it is given.
 fn excerpt<'a>(
     diagnostic: &'a Diagnostic,
@@ -87,7 +100,7 @@ fn excerpt<'a>(
         let end = (clamp(label.span.end) - window.start).max(start);
         kind.span(start..end).label(Some(texts[i].as_str()).filter(|text| !text.is_empty()))
     });
-    Snippet::source(source.slice(window)).path(name).line_start(first).annotations(annotations)
+    Snippet::source(visible(source.slice(window))).path(name).line_start(first).annotations(annotations)
 }
 
 #[cfg(test)]

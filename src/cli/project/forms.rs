@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use petril::exchange::{Checked, Stamp, junit, sarif};
+use petril::printable;
 use serde_json::Value;
 
 use super::run::Judged;
@@ -22,7 +23,7 @@ pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
     if let Some(file) = &forms.sarif {
         let documents = told.iter().map(|(_, checked, stamp)| sarif::write(checked, *stamp));
         if let Some(document) = documents.reduce(joined) {
-            output::write_text(file, &format!("{document}\n"))?;
+            output::write_text(file, &printable::json(&format!("{document}\n")))?;
         }
     }
     for (result, done) in done() {

@@ -65,8 +65,9 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
         return Ok(entries);
     }
     let pattern = |text: &String| {
-        let wrong =
-            |error: glob::PatternError| Failure::Message(format!("--only: `{text}` is no pattern: {}", error.msg));
+        let wrong = |error: glob::PatternError| {
+            Failure::Message(format!("--only: `{}` is no pattern: {}", line(text), error.msg))
+        };
         let pattern = glob::Pattern::new(text).map_err(wrong)?;
         if entries.iter().any(|entry| pattern.matches(&entry.name)) {
             return Ok(pattern);
@@ -75,7 +76,11 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
         let nearest = petril::diagnostic::nearest(text, names.iter().copied());
         let help =
             nearest.map_or_else(|| format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
-        Err(Failure::Message(format!("--only: no program of the project is called `{text}`\n  {help}")))
+        Err(Failure::Message(format!(
+            "--only: no program of the project is called `{}`\n  {}",
+            line(text),
+            line(&help)
+        )))
     };
     let patterns: Vec<glob::Pattern> = only.iter().map(pattern).collect::<Result<_, Failure>>()?;
     Ok(entries.into_iter().filter(|entry| patterns.iter().any(|pattern| pattern.matches(&entry.name))).collect())

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use petril::diagnostic::nearest;
 use petril::exchange::sif::plan_csv;
+use petril::printable::line;
 use petril::sif::{Criterion, Excluded, Limits, Plan, Specification, coverage_of, excluded, plan};
 use rayon::prelude::*;
 
@@ -23,7 +24,7 @@ pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<
         position.ok_or_else(|| {
             let near = nearest(name, known().map(|function| function.name.as_str()));
             let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-            Failure::Message(format!("the specification has no function `{name}`{near}"))
+            Failure::Message(line(&format!("the specification has no function `{name}`{near}")))
         })
     });
     found.collect()
