@@ -11,5 +11,6 @@ fn sessions_go_as_shown() {
         .case("docs/nets.md")
         .case("docs/simulation.md")
         .env("RUST_BACKTRACE", "0")
+        .env("PETRIL_PROGRESS", "0")
         .env("LC_ALL", "C.UTF-8");
 }

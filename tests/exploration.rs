@@ -4,6 +4,7 @@
 mod support;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::atomic::AtomicBool;
 
 use petril::explore::engine::{self, Model, Options};
 use petril::explore::{Budget, Failure, Graph, Markings, ScanSpace, Stop, explore};
@@ -138,7 +139,7 @@ proptest! {
             fired == transitions
         });
         let options = Options { keep: true, ..Options::default() };
-        let found = engine::explore(&Model::from(&net), &options, &mut |_| None, None).behaviour().unwrap();
+        let found = engine::explore(&Model::from(&net), &options, &mut |_| None, None).behaviour(&AtomicBool::new(false)).unwrap();
         prop_assert_eq!((found.deadlocks, found.dead, found.live_without_dead), (deadlocks, dead, live));
     }
 

@@ -291,3 +291,119 @@ fn hostile_texts_are_only_texts() {
     assert_eq!(shown, json!([evil, name, format!("(* {evil} *)"), 0, "p: violated"]));
     assert_quiet(&browser, "hostile texts");
 }
+
+/// A run of 2001 scans has few rows and shapes until somebody wants to see them, and then only those that can be seen.
+#[test]
+fn long_runs_are_folded_until_they_are_opened() {
+    let Some(browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let text = "PROGRAM p\nVAR_INPUT a : BOOL; END_VAR\nVAR_OUTPUT q : BOOL; END_VAR\nVAR t : TON; END_VAR\n\
+        CAL t(IN := a, PT := T#40s)\nLD t.Q\nST q\nEND_PROGRAM\n";
+    fs::write(folder.path().join("p.il"), text).unwrap();
+    let program = folder.path().join("p.il").display().to_string();
+    let (file, report) = page(folder.path(), &["check", &program, "-r", "AG !q"].map(str::to_owned));
+    let scans = report["requirements"][0]["trace"]["scans"].as_array().unwrap();
+    assert_eq!(scans.len(), 2001, "20 ms a scan, and the clock begins to run after the first one");
+    browser.open(&file);
+    let rows =
+        "[...document.querySelectorAll('.run-table tbody tr')].map((row) => row.dataset.scan ?? row.textContent)";
+    let shown = browser.run(&format!("return {rows}"));
+    assert_eq!(shown, json!(["1", "2", "… 1998 scanst.ET T#20ms → T#39s980ms …", "2001"]));
+    assert!(browser.run("return document.querySelectorAll('*').length").as_u64().unwrap() < 1500);
+    let heads = "[...document.querySelectorAll('.run-table thead tr:last-child th')].map((head) => head.textContent)";
+    assert_eq!(browser.run(&format!("return {heads}")), json!(["a", "t.IN", "t.PT", "t.Q", "t.ET", "q"]));
+    assert_eq!(browser.run("return document.querySelectorAll('.waves .folded').length"), 1);
+
+    // Open: the rows around the place where one looks, with the values of the run.
+    browser.click("tr.fold button");
+    let rows = browser.run(
+        "const box = document.querySelector('.table-box');
+         box.scrollTop = box.scrollHeight / 2;
+         return new Promise((done) => setTimeout(() => done([...document.querySelectorAll('.run-table tr[data-scan]')].map((row) =>
+             [Number(row.dataset.scan), row.children[5].textContent])), 300))",
+    );
+    let rows = rows.as_array().unwrap();
+    assert!((50..250).contains(&rows.len()), "{}", rows.len());
+    for row in rows {
+        let scan = row[0].as_u64().unwrap();
+        let clock = scans[scan as usize - 1]["memory"]["t.ET"].as_u64().unwrap();
+        let milliseconds = |text: &str| {
+            let text = text.trim_start_matches("T#").trim_end_matches("ms");
+            let (seconds, rest) = text.split_once('s').unwrap_or(("0", text));
+            seconds.parse::<u64>().unwrap() * 1000 + rest.parse::<u64>().unwrap_or(0)
+        };
+        assert_eq!(milliseconds(row[1].as_str().unwrap()), clock, "scan {scan}");
+    }
+    assert!(rows.iter().any(|row| row[0] == 1000), "{rows:?}");
+    // The present moment is still the last one, and stepping goes on from there.
+    assert_eq!(moment_of(&browser), json!(["2001", null]), "its row is not where one looks");
+    browser.click(".stage .bar button[aria-label^='One scan back']");
+    browser.click(".stage .bar button[aria-label^='One scan back']");
+    assert_eq!(moment_of(&browser), json!(["2000", "2000"]));
+    browser.run("[...document.querySelectorAll('.extra button')].find((b) => b.textContent === 'fold again').click()");
+    assert_eq!(browser.run("return document.querySelector('.run-table [aria-current]').className"), "fold");
+    browser.click(".extra button[aria-pressed=false]:last-child");
+    let all = browser.run(&format!("return {heads}"));
+    assert_eq!(all, json!(["a", "t.IN", "t.PT", "t.Q", "t.ET", "t.RUNNING", "t.CLOCK", "q"]));
+    assert_quiet(&browser, "a long run");
+}
+
+/// The scan of the stage, and the row that is marked.
+fn moment_of(browser: &Browser) -> Value {
+    browser.run(
+        "return [document.querySelector('.stage').dataset.scan,
+             document.querySelector('.run-table [aria-current]')?.dataset.scan ?? null]",
+    )
+}
+
+/// A check that nobody asked for says what led to the error, and opens on the instruction that met it.
+#[test]
+fn checks_say_why_and_open_on_the_instruction() {
+    let Some(browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let text = "PROGRAM p\nVAR_INPUT a : BOOL; END_VAR\nVAR_OUTPUT q : BOOL; END_VAR\nVAR n : SINT := 120; step : SINT; END_VAR\n\
+        LD 4\nST step\nLD n\nADD step\nST n\nLD a\nST q\nEND_PROGRAM\n";
+    fs::write(folder.path().join("p.il"), text).unwrap();
+    let program = folder.path().join("p.il").display().to_string();
+    let (file, report) = page(folder.path(), &["check", &program, "-r", "AG (q -> q)"].map(str::to_owned));
+    let check = report["checks"].as_array().unwrap().iter().find(|check| check["name"] == "overflow").unwrap();
+    // 120, after scan 1 it is 124, and 124 + 4 is too large.
+    let wanted = "In scan 2, line 4 (`ADD step`) had to give a number from -128 to 127, but 124 + 4 is 128: `n` is 124 and `step` is 4";
+    assert_eq!(check["why"]["wanted"], json!([wanted]));
+    let writers: Vec<Value> = check["why"]["writers"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|w| json!([w["variable"], w["scan"], w["line"]]))
+        .collect();
+    assert_eq!(writers, [json!(["n", 1, 5]), json!(["step", 2, 2])]);
+    browser.open(&file);
+    let shown = browser.run(
+        "return [document.querySelector('.why li').textContent, document.querySelector('.source-line.now').dataset.line,
+             document.querySelector('.source-line.now .hazard').textContent, document.querySelector('.stage').dataset.scan]",
+    );
+    assert_eq!(shown, json!([wanted.replace('`', ""), "8", "overflow", "2"]));
+    assert_quiet(&browser, "a check");
+}
+
+/// A large net opens on the variables that the requirement speaks of.
+#[test]
+fn nets_open_on_what_the_requirement_is_about() {
+    let Some(browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let names: Vec<String> = (0..12).map(|i| format!("i{i}")).collect();
+    let text = format!(
+        "PROGRAM p\nVAR_INPUT {} : BOOL; END_VAR\nVAR_OUTPUT q : BOOL; END_VAR\nLD i11\nST q\nEND_PROGRAM\n",
+        names.join(", ")
+    );
+    fs::write(folder.path().join("p.il"), text).unwrap();
+    let program = folder.path().join("p.il").display().to_string();
+    let (file, _) = page(folder.path(), &["check", &program, "-r", "AG !i11"].map(str::to_owned));
+    browser.open(&file);
+    let shown = browser.run(
+        "const box = document.querySelector('.cycle .net-box'), frame = box.getBoundingClientRect();
+         const at = document.querySelector('.cycle [data-place=\"i11=1\"]').getBoundingClientRect();
+         return [box.scrollTop > 0, at.top >= frame.top && at.bottom <= frame.bottom, at.left >= frame.left && at.right <= frame.right]",
+    );
+    assert_eq!(shown, json!([true, true, true]));
+}

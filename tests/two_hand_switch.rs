@@ -5,6 +5,7 @@
 mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::AtomicBool;
 
 use petril::explore::engine::{self, Model, Options};
 use petril::explore::{Budget, Graph, Markings, ScanSpace, explore};
@@ -105,7 +106,9 @@ fn the_net_behaves_as_the_paper_says() {
     assert_eq!(markings.graph().len(), 797);
     assert!(markings.graph().failures().is_empty(), "the net is safe");
     let options = Options { keep: true, ..Options::default() };
-    let behaviour = engine::explore(&Model::from(&system.net), &options, &mut |_| None, None).behaviour().unwrap();
+    let behaviour = engine::explore(&Model::from(&system.net), &options, &mut |_| None, None)
+        .behaviour(&AtomicBool::new(false))
+        .unwrap();
     assert_eq!(behaviour.deadlocks, 0);
     assert!(behaviour.live_without_dead);
     // Each instruction has a transition for every combination of values, and not every combination comes about.

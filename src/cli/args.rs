@@ -178,7 +178,14 @@ pub struct Check {
     /// Print the runs that show what is possible, too (for EF and its like), and an example of each requirement's premise.
     #[arg(long)]
     pub witnesses: bool,
-    /// Draw timing diagrams in ASCII alone.
+    /// Show these variables of each run: names and patterns, like `Motor,Timer.*`, or `all`. If not given, those that the program
+    /// declares, without what is local to instances of function blocks.
+    #[arg(long, value_name = "VARS", requires = "program")]
+    pub show: Vec<String>,
+    /// Print every scan of a run, also those in which only clocks and counters go on.
+    #[arg(long)]
+    pub every_scan: bool,
+    /// Draw timing diagrams and folded scans in ASCII alone.
     #[arg(long)]
     pub ascii: bool,
     /// What is written into files.

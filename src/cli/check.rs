@@ -14,15 +14,16 @@ use petril::logic::{
 };
 use petril::source::Source;
 use petril::translate::System;
-use petril::verdict::{Options, Report, Verdict, check, check_knowing, fingerprint};
+use petril::verdict::{News, Options, Report, Tell, Verdict, check_aloud, check_knowing_aloud, fingerprint};
 
 use super::args::{Check, View};
 use super::cache::Cache;
 use super::console::Console;
 use super::input::Program;
 use super::progress::Watcher;
+use super::report::Printed;
 use super::requirements::{Asked, Bound};
-use super::{Failure, Outcome, forms, guard, input, project, report, watch};
+use super::{Failure, Outcome, forms, guard, input, project, show, watch};
 
 /// A program that was checked.
 pub struct Done {
@@ -54,16 +55,22 @@ pub fn run(arguments: &Check, given: &[OsString], console: &Console) -> Outcome 
 fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
     let watcher = Watcher::new(&arguments.limits)?;
     let cache = if arguments.no_cache { None } else { Cache::open(None, console) };
-    let done = checked(arguments, program, cache.as_ref(), console, &watcher)?;
-    let Done { system, source, report, .. } = &done;
+    let printed = (!arguments.json).then(|| Printed::new(arguments, console, &watcher));
+    let done = checked(arguments, program, cache.as_ref(), console, &watcher, printed.as_ref())?;
     forms::write(&arguments.forms, &done.told(), done.started)?;
-    if arguments.json {
-        console.print_json(json::report(&done.told(), arguments.by_line || arguments.details))?;
-    } else {
-        let text = report::Text { system, source, arguments, console };
-        console.print_report(&text.report(report), &done.provenance, arguments.details)?;
+    match printed {
+        Some(printed) => printed.rest(&done)?,
+        None => drop(console.print_json(json::report(&done.told(), arguments.by_line || arguments.details))?),
     }
-    Ok(code(report.verdict()))
+    Ok(code(done.report.verdict()))
+}
+
+/// Adds the warnings about the inputs to a report, and what is assumed because of them.
+pub fn add_warnings(report: &mut Report, console: &Console) {
+    let warnings = console.warnings();
+    report.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
+    report.warnings =
+        warnings.into_iter().map(|(code, place, message)| format!("{place}: {code}: {message}")).collect();
 }
 
 /// The exit code of a verdict.
@@ -75,13 +82,14 @@ pub fn code(verdict: Verdict) -> ExitCode {
     }
 }
 
-/// Reads a program and everything that is asked of it, and judges.
+/// Reads a program and everything that is asked of it, and judges. What is known meanwhile is printed, if that is wanted.
 pub fn checked(
     arguments: &Check,
     program: &Path,
     cache: Option<&Cache>,
     console: &Console,
     watcher: &Watcher,
+    printed: Option<&Printed<'_>>,
 ) -> Result<Done, Failure> {
     let view = match arguments.view {
         View::Scan => logic::View::Scan,
@@ -99,6 +107,7 @@ pub fn checked(
     let mut plants = arguments.plant.clone();
     plants.extend(asked.plants());
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
+    show::refuse_unknown(&program, &arguments.show)?;
     let domains = asked.domains(&program, &plant);
     guard::phase("composing the net");
     let mut system = System::with_domains(program, plant, domains);
@@ -124,20 +133,23 @@ pub fn checked(
     guard::phase("exploring");
     let started = Instant::now();
     let mut watch = |progress: &Progress| watcher.watch(progress);
+    let tell = |news: News<'_>| {
+        if let Some(printed) = printed {
+            printed.hear(&system, &source, news);
+        }
+    };
+    let tell: Option<Tell<'_>> = printed.is_some().then_some(&tell);
     let mut report = match cache.map(|cache| (cache, fingerprint(&system, &options))) {
         Some((cache, fingerprint)) => {
             let known = cache.recall(&fingerprint);
-            let (report, now) = check_knowing(&system, &requirements, &options, known.as_ref(), &mut watch);
+            let (report, now) = check_knowing_aloud(&system, &requirements, &options, known.as_ref(), &mut watch, tell);
             now.iter().for_each(|now| cache.keep(&fingerprint, now));
             report
         }
-        None => check(&system, &requirements, &options, &mut watch),
+        None => check_aloud(&system, &requirements, &options, &mut watch, tell),
     };
     watcher.finish();
-    let warnings = console.warnings();
-    report.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
-    report.warnings =
-        warnings.into_iter().map(|(code, place, message)| format!("{place}: {code}: {message}")).collect();
+    add_warnings(&mut report, console);
     console.has_options(&options_of(arguments));
     Ok(Done { system, source, report, provenance: console.provenance(), started })
 }

@@ -1,11 +1,11 @@
 //! The terminal: colour, width, and where messages go.
 
-use std::cell::RefCell;
 use std::fmt;
 use std::fs::File;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use petril::diagnostic::{Diagnostic, Style, render};
 use petril::exchange::{Provenance, json};
@@ -30,18 +30,18 @@ pub struct Console {
     /// Whether results may have other characters than ASCII.
     has_unicode: bool,
     /// The diagnostics printed so far, for those who want JSON.
-    printed: RefCell<Vec<Value>>,
+    printed: Mutex<Vec<Value>>,
     /// Messages, if they are not printed at once.
-    held: Option<RefCell<String>>,
+    held: Option<Mutex<String>>,
     colour: When,
     /// Stands behind the escape of a colour until it is printed. It is another one in each run, so that no text has it.
     mark: String,
     /// What was seen of the file system.
-    seen: RefCell<Seen>,
+    seen: Mutex<Seen>,
     /// What was read before, by the one that this console is told to.
     read_before: Vec<(String, String)>,
     /// Hash of the options of the command line.
-    options: RefCell<String>,
+    options: Mutex<String>,
 }
 
 /// What one of several consoles was told.
@@ -72,28 +72,28 @@ impl Console {
             width,
             output_width: console_width().or_else(terminal_width),
             has_unicode: locale_has_unicode(),
-            printed: RefCell::default(),
+            printed: Mutex::default(),
             held: None,
             colour,
             mark: format!("{:016x}", RandomState::new().build_hasher().finish()),
-            seen: RefCell::default(),
+            seen: Mutex::default(),
             read_before: Vec::new(),
-            options: RefCell::default(),
+            options: Mutex::default(),
         }
     }
 
     /// The command line asks for this.
     pub fn has_options(&self, options: &dyn fmt::Debug) {
-        self.options.replace(sha256(format!("{options:?}").as_bytes()));
+        *lock(&self.options) = sha256(format!("{options:?}").as_bytes());
     }
 
     /// Where a report comes from that is made now.
     pub fn provenance(&self) -> Provenance {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
         let mut inputs = self.read_before.clone();
-        inputs.extend(self.seen.borrow().inputs());
+        inputs.extend(lock(&self.seen).inputs());
         let command = std::iter::once("petril".to_owned()).chain(words).collect();
-        Provenance { command, inputs, options: self.options.borrow().clone() }
+        Provenance { command, inputs, options: lock(&self.options).clone() }
     }
 
     /// When this uses colours.
@@ -103,42 +103,42 @@ impl Console {
 
     /// A console that keeps everything to itself until it is told to this one.
     pub fn holding(colour: When, read_before: Vec<(String, String)>) -> Self {
-        Self { held: Some(RefCell::default()), read_before, ..Self::new(colour) }
+        Self { held: Some(Mutex::default()), read_before, ..Self::new(colour) }
     }
 
     /// What was told to a console that keeps it.
     pub fn told(self) -> Told {
-        let messages = self.held.map(RefCell::into_inner).unwrap_or_default();
-        Told { messages, diagnostics: self.printed.into_inner(), seen: self.seen.into_inner() }
+        let messages = self.held.map(inner).unwrap_or_default();
+        Told { messages, diagnostics: inner(self.printed), seen: inner(self.seen) }
     }
 
     /// Prints what another one was told.
     pub fn tell(&self, told: Told) {
         self.write(&told.messages);
-        self.printed.borrow_mut().extend(told.diagnostics);
-        self.seen.borrow_mut().extend(told.seen);
+        lock(&self.printed).extend(told.diagnostics);
+        lock(&self.seen).extend(told.seen);
     }
 
     /// A file was read, or could not be.
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
         output::has_read(path);
-        self.seen.borrow_mut().file(path, bytes);
+        lock(&self.seen).file(path, bytes);
     }
 
     /// A pattern matched these files.
     pub fn has_matched(&self, pattern: &str, files: &[PathBuf]) {
-        self.seen.borrow_mut().pattern(pattern, files);
+        lock(&self.seen).pattern(pattern, files);
     }
 
     /// What was seen of the file system since this was last asked.
     pub fn take_seen(&self) -> Seen {
-        self.seen.take()
+        std::mem::take(&mut *lock(&self.seen))
     }
 
     /// Prints the diagnostics of a file, most of them, each with an empty line behind it.
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], source: &Source) {
         let style = Style { colour: self.errors_in_colour, width: self.width };
-        self.printed.borrow_mut().extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
+        lock(&self.printed).extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
         for diagnostic in diagnostics.iter().take(MAX_DIAGNOSTICS) {
             self.write(&format!("{}\n", render(diagnostic, source, style)));
         }
@@ -149,7 +149,7 @@ impl Console {
 
     /// The warnings printed so far, each with its code, where it stands, and its message.
     pub fn warnings(&self) -> Vec<(String, String, String)> {
-        let printed = self.printed.borrow();
+        let printed = lock(&self.printed);
         let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
         let warnings = printed.iter().filter(|diagnostic| diagnostic["severity"] == "warning");
         let place = |d: &Value| format!("{}:{}:{}", text(&d["file"]), d["line"], d["column"]);
@@ -173,7 +173,7 @@ impl Console {
     /// Prints a message as it is, with its colours.
     fn write(&self, text: &str) {
         match &self.held {
-            Some(held) => held.borrow_mut().push_str(text),
+            Some(held) => lock(held).push_str(text),
             None => drop(guard::pause(|| io::stderr().write_all(text.as_bytes()))),
         }
     }
@@ -216,7 +216,7 @@ impl Console {
         if document["provenance"].is_null() {
             document["provenance"] = self.provenance().json();
         }
-        document["diagnostics"] = Value::Array(self.printed.take());
+        document["diagnostics"] = Value::Array(std::mem::take(&mut *lock(&self.printed)));
         self.print_as_it_is(&printable::json(&format!("{document:#}\n")))
     }
 
@@ -245,6 +245,15 @@ impl Console {
     pub fn output_in_colour(&self) -> bool {
         self.output_in_colour
     }
+}
+
+/// What several threads share. What one of them did before it panicked is as good as ever.
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn inner<T>(shared: Mutex<T>) -> T {
+    shared.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What a colour means.

@@ -127,6 +127,11 @@ pub fn phase(name: &'static str) {
     *PHASE.lock().unwrap_or_else(PoisonError::into_inner) = name;
 }
 
+/// The phase that goes on.
+pub fn doing() -> &'static str {
+    *PHASE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Does something that may wait for a reader of output, who may take any time.
 pub fn pause<T>(work: impl FnOnce() -> T) -> T {
     PAUSED.fetch_add(1, Ordering::SeqCst);
@@ -167,7 +172,7 @@ impl Guard {
         output::discard_unfinished();
         let is_interrupted = reason == Reason::Interrupted;
         if !is_paused {
-            let phase = *PHASE.lock().unwrap_or_else(PoisonError::into_inner);
+            let phase = doing();
             let seconds = self.started.elapsed().as_secs_f64();
             let message = format!("{reason}, while {phase}, after {seconds:.1} s with {} MiB", used());
             let verdict = if ending.has_verdict { "unknown" } else { "error" };

@@ -34,7 +34,9 @@ mod project;
 mod report;
 mod requirements;
 mod seen;
+mod show;
 mod sif;
+mod sign_of_life;
 mod simulate;
 mod translate;
 mod watch;
@@ -96,6 +98,7 @@ pub fn run() -> ExitCode {
     let wants_json = args.verb.wants_json();
     if let Some(bounds) = args.verb.bounds() {
         guard::start(&bounds, guard::Ending { has_verdict: args.verb.has_verdict(), wants_json });
+        sign_of_life::begin();
     }
     console.has_options(&args.verb);
     let outcome = match args.verb {

@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use petril::explore::Stop;
-use petril::explore::engine::{Exploration, Model, Options, explore};
+use petril::explore::engine::{Behaviour, Exploration, Model, Options, explore};
+use petril::explore::{Stop, watched};
 use petril::net::{Net, PlaceId, TransitionId};
 use petril::structure::Summary;
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ use super::net_explore::threads;
 use super::net_structure::Structure;
 use super::progress::Watcher;
 use super::report::counted;
-use super::{Outcome, SUCCESS, input};
+use super::{Outcome, SUCCESS, guard, input};
 
 /// Nodes named in a line of text, at most.
 pub const NAMED: usize = 20;
@@ -30,6 +30,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let (located, _) = input::net(&on.model, console)?;
     let net = if on.json { located.net } else { located.net.into_printable() };
     let watcher = Watcher::new(&on.limits)?;
+    guard::phase("looking at the structure of the net");
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };
     // A marking of a large net takes a long time in itself.
@@ -38,10 +39,14 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         watcher.finish();
         return unexplored(&structure, &net, arguments, console);
     }
+    guard::phase("exploring the net");
     let options = Options { budget: on.limits.budget_of(STATES), threads: threads(&on.limits), keep: true };
     let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);
     let second = second_token(&net, &exploration);
-    let (behaviour, mut facts) = behaviour(&net, &exploration);
+    let (live, _) = watched(&mut |progress| watcher.watch(progress), &exploration.progress(), |stopping| {
+        exploration.behaviour(stopping)
+    });
+    let (behaviour, mut facts) = behaviour(&net, &exploration, live.flatten());
     watcher.finish();
     if on.json {
         let mut document =
@@ -128,7 +133,7 @@ fn second_token<'n>(net: &'n Net, exploration: &Exploration) -> Option<SecondTok
 }
 
 /// What was explored: the line about markings and the lines behind that about safeness, and the same as data.
-fn behaviour(net: &Net, exploration: &Exploration) -> ((String, String), Value) {
+fn behaviour(net: &Net, exploration: &Exploration, live: Option<Behaviour>) -> ((String, String), Value) {
     let figures = &exploration.figures;
     if exploration.stop != Stop::Complete {
         let markings = format!("markings     at least {}: {}\n", figures.states, exploration.stop);
@@ -150,13 +155,13 @@ fn behaviour(net: &Net, exploration: &Exploration) -> ((String, String), Value) 
     let dead: Vec<&str> = figures.never_enabled.iter().map(|&id| net.transition(TransitionId::at(id)).name).collect();
     rest += &format!("dead         {}{}\n", counted(dead.len(), "transition"), named(&dead));
     facts["dead_transitions"] = json!(dead);
-    rest += &match exploration.behaviour() {
+    rest += &match live {
         Some(behaviour) => {
             facts["live_without_dead"] = json!(behaviour.live_without_dead);
             let without = if dead.is_empty() { "" } else { " without the dead transitions" };
             format!("live         {}{without}\n", if behaviour.live_without_dead { "yes" } else { "no" })
         }
-        None => "live         not computed: there are too many markings\n".to_owned(),
+        None => "live         not computed: a limit was reached\n".to_owned(),
     };
     ((markings, rest), facts)
 }

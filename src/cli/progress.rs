@@ -11,10 +11,13 @@ use super::Failure;
 use super::args::Limits;
 use super::guard::{self, Reason};
 use super::memory;
+use super::sign_of_life::{self, in_short};
 
 /// Watches a search.
 pub struct Watcher {
     bar: ProgressBar,
+    /// Whether its figures are those of all the work.
+    is_alone: bool,
     started: Instant,
     timeout: Option<Duration>,
     /// MiB that may be in use.
@@ -42,16 +45,17 @@ impl Watcher {
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
         guard::listen();
+        sign_of_life::begin();
         // Drawn on standard error, and only if that is a terminal.
-        Self::drawing(limits, ProgressDrawTarget::stderr())
+        Self::drawing(limits, ProgressDrawTarget::stderr(), true)
     }
 
     /// Watches one search among several, and shows nothing.
     pub fn unseen(limits: &Limits) -> Result<Self, Failure> {
-        Self::drawing(limits, ProgressDrawTarget::hidden())
+        Self::drawing(limits, ProgressDrawTarget::hidden(), false)
     }
 
-    fn drawing(limits: &Limits, target: ProgressDrawTarget) -> Result<Self, Failure> {
+    fn drawing(limits: &Limits, target: ProgressDrawTarget, is_alone: bool) -> Result<Self, Failure> {
         let timeout = match limits.timeout.map(Duration::try_from_secs_f64) {
             Some(Err(error)) => return Err(Failure::Message(format!("--timeout: {error}"))),
             Some(Ok(timeout)) => Some(timeout),
@@ -60,13 +64,21 @@ impl Watcher {
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
         let memory = limits.budget().bytes >> 20;
-        Ok(Self { bar, started: Instant::now(), timeout, memory, shown: Cell::default() })
+        Ok(Self { bar, is_alone, started: Instant::now(), timeout, memory, shown: Cell::default() })
     }
 
     /// Shows the figures; gives a reason to stop if time is up, or memory.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
+        if self.is_alone {
+            let (states, rest) = (in_short(progress.states), in_short(progress.states - progress.expanded));
+            sign_of_life::say(if done {
+                format!("{states} states, checking the requirements")
+            } else {
+                format!("{states} states, {rest} still to expand")
+            });
+        }
         if elapsed > self.shown.get() + PAUSE || (done && elapsed > PAUSE) {
             if self.shown.replace(elapsed).is_zero() {
                 self.bar.enable_steady_tick(Duration::from_millis(100));
@@ -90,6 +102,11 @@ impl Watcher {
         guard::asked().or(time).or(memory).map(|reason| reason.to_string())
     }
 
+    /// The figures on the terminal, which can make room for something else.
+    pub fn figures(&self) -> ProgressBar {
+        self.bar.clone()
+    }
+
     /// Does something while the figures are off the terminal.
     pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
         self.bar.suspend(work)
@@ -97,6 +114,7 @@ impl Watcher {
 
     /// Clears the figures.
     pub fn finish(&self) {
+        sign_of_life::end();
         self.bar.finish_and_clear();
     }
 }

@@ -6,8 +6,8 @@ use crate::printable;
 use crate::semantics::VarId;
 use crate::source::Source;
 use crate::translate::System;
-use crate::verdict::{Answer, Change, Independence, Outcome, Report, Trace, Why, Witness};
-use crate::witness::{firing_table, scan_table};
+use crate::verdict::{Answer, Change, Focus, Independence, Outcome, Report, Trace, Why, Witness};
+use crate::witness::{Shown, firing_table, piecewise_scan_table};
 
 /// A report, the system it is about, and the text of its program.
 #[derive(Clone, Copy, Debug)]
@@ -97,11 +97,18 @@ impl<'a> Checked<'a> {
         witness.notes.iter().map(move |note| printable::line(&note.sentence(view)))
     }
 
-    /// A run as a table, and what it shows, in plain text.
+    /// A run that goes with an answer, as a table, and what it shows, in plain text.
     #[must_use]
-    pub fn told(&self, witness: &Witness) -> String {
+    pub fn told(&self, answer: &Answer, witness: &Witness) -> String {
         let mut text = match &witness.trace {
-            Trace::Scans(trace) => scan_table(self.system, trace).to_string(),
+            Trace::Scans(trace) => {
+                let focus = Focus::of(answer, witness);
+                let columns = focus.columns(self.system);
+                let pieces = focus.pieces(self.system, &witness.trace, &columns);
+                let is_marked = &|_, _| false;
+                let shown = Shown { columns, pieces, is_marked, is_ascii: false };
+                piecewise_scan_table(self.system, trace, &shown).to_string()
+            }
             Trace::Firings(trace) => firing_table(self.system, trace).to_string(),
         };
         text.push('\n');

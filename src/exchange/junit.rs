@@ -101,7 +101,7 @@ fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) 
         Outcome::Holds { .. } => return element.write_empty().map(drop),
         Outcome::Unknown(_) => ("error", head(answer)),
         Outcome::Violated(witness, _) => {
-            let mut body = head(answer) + "\n" + &checked.told(witness);
+            let mut body = head(answer) + "\n" + &checked.told(answer, witness);
             let why = why(answer).map(|why| checked.explained(why)).unwrap_or_default();
             body.extend(why.into_iter().map(|sentence| sentence + "\n"));
             ("failure", body)

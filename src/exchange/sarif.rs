@@ -138,8 +138,8 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize
     let mut places: Vec<Value> = writers.collect();
     // The last writer is the nearest to the break. An error breaks where it happens.
     places.reverse();
-    if places.is_empty() {
-        places.extend(met(answer).map(|(line, hazard)| at_line(checked, line, &hazard.to_string())));
+    if let Some((line, hazard)) = met(answer) {
+        places.insert(0, at_line(checked, line, &hazard.to_string()));
     }
     places.extend(origin);
     let mut places = places.into_iter();

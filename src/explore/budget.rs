@@ -1,7 +1,9 @@
 //! How far a search may go, how far it is, and why it stopped.
 
-use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::hint::black_box;
+
+use serde::{Deserialize, Serialize};
 
 /// What a search may use. It stops at the first limit and keeps what it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +19,12 @@ impl Default for Budget {
     fn default() -> Self {
         Self { states: 100_000_000, bytes: 8 << 30 }
     }
+}
+
+/// Whether so many bytes can be had at once. A list that grows beyond what there is would end the program.
+pub(super) fn is_available(bytes: u64) -> bool {
+    let mut probe: Vec<u8> = Vec::new();
+    usize::try_from(bytes).is_ok_and(|bytes| black_box(&mut probe).try_reserve_exact(bytes).is_ok())
 }
 
 /// The figures of a search under way.

@@ -1,5 +1,7 @@
 //! Strongly connected components of a part of a graph.
 
+use std::sync::atomic::AtomicBool;
+
 use fixedbitset::FixedBitSet;
 
 use super::graph::Graph;
@@ -33,6 +35,13 @@ impl Components {
 /// many states share it. A component with a cycle then holds a row, and one without does not hold more than one node.
 #[must_use]
 pub fn components(graph: &Graph, part: &FixedBitSet) -> Components {
+    let none = || Components { of: Vec::new(), count: 0, cyclic: FixedBitSet::new() };
+    components_until(graph, part, &AtomicBool::new(false)).unwrap_or_else(none)
+}
+
+/// As [`components`]. Nothing if `stopping` is set meanwhile.
+#[must_use]
+pub fn components_until(graph: &Graph, part: &FixedBitSet, stopping: &AtomicBool) -> Option<Components> {
     let n = graph.len();
     let row_nodes: Vec<u32> = graph.ids().filter_map(|state| graph.row_of(state)).map(|row| n as u32 + row).collect();
     let mut present = part.clone();
@@ -42,7 +51,7 @@ pub fn components(graph: &Graph, part: &FixedBitSet) -> Components {
         Some(row) => graph.row(row as u32),
         None => row_nodes.get(node as usize).map_or(&[][..], std::slice::from_ref),
     };
-    let (mut of, count) = tarjan(n + graph.rows(), &present, successors);
+    let (mut of, count) = tarjan(n + graph.rows(), &present, successors, stopping)?;
     let mut cyclic = FixedBitSet::with_capacity(count);
     for state in part.ones() {
         let row = row_nodes.get(state).map(|&row| of[row as usize]);
@@ -51,5 +60,5 @@ pub fn components(graph: &Graph, part: &FixedBitSet) -> Components {
         }
     }
     of.truncate(n);
-    Components { of, count, cyclic }
+    Some(Components { of, count, cyclic })
 }

@@ -38,16 +38,16 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph of states that are kept elsewhere: state 0 is the initial one, and `targets[starts[s]..starts[s + 1]]` are the
-    /// successors of state s. They are numbered by their distance from it.
+    /// The graph of `states` states that are kept elsewhere: state 0 is the initial one, the first states are expanded, and
+    /// `targets[starts[s]..starts[s + 1]]` are the successors of such a state s.
     ///
     /// Unless the graph is the whole one, which `stop` says, a last state is added that stands for all that are not known, with the
     /// number that targets give it.
     #[must_use]
-    pub fn of_rows(starts: Vec<u64>, targets: Vec<u32>, stop: Stop) -> Self {
-        let states = starts.len().saturating_sub(1) as u32;
-        let len = states as usize + usize::from(stop != Stop::Complete);
-        let (initial, row_of) = ((0..states.min(1)).collect(), (0..states).collect());
+    pub fn of_rows(states: usize, starts: Vec<u64>, targets: Vec<u32>, stop: Stop) -> Self {
+        let rows = starts.len().saturating_sub(1) as u32;
+        let len = states + usize::from(stop != Stop::Complete || (rows as usize) < states);
+        let (initial, row_of) = ((0..states.min(1) as u32).collect(), (0..rows).collect());
         Self { len, initial, row_of, starts, targets, stop, ..Self::empty(0) }
     }
 

@@ -4,6 +4,7 @@ use super::budget::{Budget, Progress, Stop};
 use super::engine::{self, Exploration, explore_safely};
 use super::graph::Graph;
 use super::space::{Failure, Step};
+use super::watched::watched;
 use crate::net::{Net, PlaceId, TransitionId};
 
 /// The reachable markings of a net: their graph, and what its states mean.
@@ -33,7 +34,9 @@ impl<'n> Markings<'n> {
         let mut graph = Graph::empty(exploration.words());
         let taken = exploration.figures.bytes + exploration.figures.states * (ROW - 5 * 4);
         let most = (budget.bytes.saturating_sub(taken) / 4) as usize;
-        if let Some(steps) = exploration.steps_within(most) {
+        let progress = exploration.progress();
+        let (steps, stopped) = watched(watch, &progress, |stopping| exploration.steps_within(most, stopping));
+        if let Some(steps) = steps.flatten() {
             (graph.starts, graph.targets) = steps.into_parts();
         }
         graph.levels = exploration.levels();
@@ -43,7 +46,7 @@ impl<'n> Markings<'n> {
         graph.row_of = (0..graph.rows() as u32).collect();
         graph.stop = match exploration.stop {
             Stop::Watcher(_) if full => Stop::Bytes(budget.bytes),
-            Stop::Complete if graph.rows() < graph.len => Stop::Bytes(budget.bytes),
+            Stop::Complete if graph.rows() < graph.len => stopped.map_or(Stop::Bytes(budget.bytes), Stop::Watcher),
             ref stop => stop.clone(),
         };
         let mut markings = Self { net, exploration, graph };
@@ -87,8 +90,9 @@ impl<'n> Markings<'n> {
         self.exploration.show(state, |view| {
             for transition in view.enabled() {
                 next.copy_from_slice(state);
-                self.exploration.fire(transition, &mut next);
-                visit(TransitionId::at(transition), Step::To(&next));
+                if self.exploration.fire(transition, &mut next) {
+                    visit(TransitionId::at(transition), Step::To(&next));
+                }
             }
         });
         self.failing(state).for_each(|(id, place)| visit(id, Step::Fails(Failure::NotSafe(place))));

@@ -26,11 +26,12 @@ mod store;
 mod table;
 mod tarjan;
 mod walk;
+mod watched;
 
 pub use asserted::{Seen, first_at_lines};
 pub use budget::{Budget, Progress, Stop};
 pub use circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
-pub use components::{Components, components};
+pub use components::{Components, components, components_until};
 pub use coverage::never_executed;
 pub use free_inputs::MAX_FAN_OUT;
 pub use given::Position;
@@ -43,3 +44,4 @@ pub use scan_space::{ScanRun, ScanSpace, ScanState};
 pub use search::explore;
 pub use space::{Admission, Failure, StateSpace, Step, Successors};
 pub use walk::{Walk, without_loops};
+pub use watched::watched;

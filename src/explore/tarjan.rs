@@ -1,13 +1,20 @@
 //! Tarjan's algorithm for strongly connected components (1972), with an explicit stack: graphs of states are deep.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use fixedbitset::FixedBitSet;
 
 /// Stands for "in no component".
 pub const NONE: u32 = u32::MAX;
 
 /// The component of each of `n` nodes ([`NONE`] for a node that is not in `part`) and how many there are. A component's
-/// number exceeds those of the components it leads to.
-pub fn tarjan<'g>(n: usize, part: &FixedBitSet, successors: impl Fn(u32) -> &'g [u32]) -> (Vec<u32>, usize) {
+/// number exceeds those of the components it leads to. Nothing if `stopping` is set meanwhile.
+pub fn tarjan<'g>(
+    n: usize,
+    part: &FixedBitSet,
+    successors: impl Fn(u32) -> &'g [u32],
+    stopping: &AtomicBool,
+) -> Option<(Vec<u32>, usize)> {
     let mut component = vec![NONE; n];
     let mut count = 0;
     // The order in which nodes are first seen, 0 for "not seen", and the smallest order known to be in the same component.
@@ -23,6 +30,9 @@ pub fn tarjan<'g>(n: usize, part: &FixedBitSet, successors: impl Fn(u32) -> &'g 
         while let Some(&mut (node, ref mut next)) = path.last_mut() {
             let v = node as usize;
             if *next == 0 {
+                if seen % 4096 == 0 && stopping.load(Ordering::Relaxed) {
+                    return None;
+                }
                 seen += 1;
                 (order[v], low[v]) = (seen, seen);
                 stack.push(node);
@@ -59,5 +69,5 @@ pub fn tarjan<'g>(n: usize, part: &FixedBitSet, successors: impl Fn(u32) -> &'g 
             }
         }
     }
-    (component, count as usize)
+    Some((component, count as usize))
 }

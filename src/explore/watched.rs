@@ -5,16 +5,17 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use super::Watch;
-use crate::explore::Progress;
+use super::budget::Progress;
 
 /// Between two looks.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Does some work on another thread, which is told by the flag when `watch` gives a reason to stop. What came of the work; and the
 /// reason, if there was one.
-pub(super) fn watched<T: Send>(
-    watch: Watch<'_>,
+///
+/// All long work on nets is asked to stop in this way: it looks at the flag now and then.
+pub fn watched<T: Send>(
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
     progress: &Progress,
     work: impl FnOnce(&AtomicBool) -> T + Send,
 ) -> (Option<T>, Option<String>) {

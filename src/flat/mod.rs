@@ -22,7 +22,7 @@ pub use value::value_text;
 
 pub use instruction::{Condition, Element, Function, Hazard, Instruction, Operand, Target};
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::semantics::{Role, Type, VarId, spelling};
 use crate::source::Span;
@@ -42,6 +42,8 @@ pub struct FlatProgram {
     pub restrictions: BTreeMap<VarId, Restriction>,
     /// Elementary variables with an address, by its one spelling.
     pub addresses: BTreeMap<String, VarId>,
+    /// Local variables of function blocks' instances, which nobody but the block itself can name.
+    pub internal: BTreeSet<VarId>,
     /// The time from one scan to the next in milliseconds, if a timer depends on it.
     pub scan_time: Option<u64>,
     /// The same whether one does or not.

@@ -21,6 +21,9 @@ pub struct Answer {
     pub formula: String,
     /// Where it stands; a check that is made without asking stands nowhere.
     pub origin: Option<Origin>,
+    /// Variables of the program that the formula speaks of.
+    #[serde(default)]
+    pub variables: Vec<VarId>,
     /// What is known.
     pub outcome: Outcome,
     /// If it holds whatever the program does.
@@ -42,6 +45,7 @@ impl Answer {
             tags: requirement.tags.clone(),
             formula: requirement.text.clone(),
             origin: Some(requirement.origin.clone()),
+            variables: Vec::new(),
             outcome,
             independent: None,
             remark: None,
@@ -59,6 +63,7 @@ impl Answer {
             tags: Vec::new(),
             formula: formula.to_owned(),
             origin: None,
+            variables: Vec::new(),
             outcome,
             independent: None,
             remark: None,

@@ -50,6 +50,7 @@ pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
         tags: Vec::new(),
         formula: assertion.text.clone(),
         origin: Some(assertion.origin.clone()),
+        variables: assertion.formula.mentions().variables.into_iter().collect(),
         outcome,
         independent: None,
         remark: None,

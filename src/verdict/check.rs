@@ -7,6 +7,7 @@ use super::coverage::coverage;
 use super::failing::what_is_missing;
 use super::fairness::Fair;
 use super::independence::{Independence, independence};
+use super::news::{InOrder, Tell};
 use super::premises::{Occurrence, occurrence};
 use super::remarks::remarks;
 use super::remembering::RememberingView;
@@ -59,9 +60,22 @@ pub fn check(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Report {
+    check_aloud(system, requirements, options, watch, None)
+}
+
+/// As [`check()`]; `tell` hears of what was explored and of each answer as soon as all before it are known.
+#[must_use]
+pub fn check_aloud(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    tell: Option<Tell<'_>>,
+) -> Report {
+    let told = InOrder::new(tell);
     match options.view {
-        View::Scan => check_scans(system, requirements, options, watch),
-        View::Transition => check_markings(system, requirements, options, watch),
+        View::Scan => check_scans(system, requirements, options, watch, &told),
+        View::Transition => check_markings(system, requirements, options, watch, &told),
     }
 }
 
@@ -70,6 +84,7 @@ fn check_scans(
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    told: &InOrder<'_>,
 ) -> Report {
     let Options { assumptions, assertions, .. } = options;
     let assumed = Assumed { assumptions, assertions };
@@ -78,7 +93,7 @@ fn check_scans(
     let space = ScanSpace::assuming(system, options.tolerated, admission);
     let graph = explore(&space, options.budget, watch);
     let view = ScanView { space, graph, assumptions: &options.assumptions };
-    let (outcomes, left_out) = outcomes(&view, requirements, options, watch);
+    let (outcomes, left_out) = outcomes(&view, requirements, options, watch, told);
     let ScanView { space, graph, .. } = &view;
     let asserted = asserted::answers(&view, &options.assertions, &mut || watch(&done(graph)).is_some());
     let ends = std::iter::once(scan_ends::answer(scan_ends::on_scans(space, graph)));
@@ -122,15 +137,24 @@ pub(super) fn answers(
     options: &Options,
     outcomes: Vec<Outcome>,
 ) -> Vec<Answer> {
-    let answer = |((requirement, demand), outcome): (&(Requirement, Demand), Outcome)| {
-        let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
-        let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
-        // Which runs count may depend on the program.
-        let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
-        let remark = requirement.remark(options.view);
-        Answer { independent: independent.filter(certain), remark, ..Answer::to(requirement, outcome) }
-    };
-    requirements.iter().zip(outcomes).map(answer).collect()
+    requirements.iter().zip(outcomes).map(|(asked, outcome)| answer(system, asked, options, outcome)).collect()
+}
+
+/// The answer to a requirement with this outcome.
+pub(super) fn answer(
+    system: &System,
+    (requirement, demand): &(Requirement, Demand),
+    options: &Options,
+    outcome: Outcome,
+) -> Answer {
+    let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
+    let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
+    // Which runs count may depend on the program.
+    let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
+    let variables = demand.formula().map(|formula| formula.mentions().variables).unwrap_or_default();
+    let variables = variables.into_iter().collect();
+    let remark = requirement.remark(options.view);
+    Answer { independent: independent.filter(certain), variables, remark, ..Answer::to(requirement, outcome) }
 }
 
 /// The outcomes of requirements on scans, and what no run goes through that counts, in words. Requirements that know the same of the
@@ -140,6 +164,7 @@ fn outcomes(
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    told: &InOrder<'_>,
 ) -> (Vec<Outcome>, Option<String>) {
     let mut groups: Vec<(History, Vec<usize>)> = Vec::new();
     for (position, (_, demand)) in requirements.iter().enumerate() {
@@ -151,8 +176,9 @@ fn outcomes(
         }
     }
     let mut outcomes = vec![Outcome::holds(); requirements.len()];
-    let mut left_out = None;
+    let (mut left_out, mut rest) = (None, groups.len());
     for (history, members) in groups {
+        rest -= 1;
         let bytes = options.budget.bytes.saturating_sub(view.graph.bytes());
         let budget = Budget { bytes, ..options.budget };
         let remembering;
@@ -164,11 +190,19 @@ fn outcomes(
         };
         let fair = Fair::on(view_of, &options.fairness);
         left_out = left_out.or_else(|| fair.as_ref().and_then(Fair::left_out));
+        // What no run goes through is told above the answers.
+        if fair.is_none() || left_out.is_some() || rest == 0 {
+            told.begin(|| report(view.system(), requirements, options, &view.graph, left_out.clone()));
+        }
         let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget };
-        let judged = members.par_iter().map(|&position| match &requirements[position].1 {
-            Demand::Formula(formula) => judge.outcome(formula),
-            Demand::Possible(formula) => judge.outcome_of_possibility(formula),
-            Demand::EveryLine => every_line::outcome(view),
+        let judged = members.par_iter().map(|&position| {
+            let outcome = match &requirements[position].1 {
+                Demand::Formula(formula) => judge.outcome(formula),
+                Demand::Possible(formula) => judge.outcome_of_possibility(formula),
+                Demand::EveryLine => every_line::outcome(view),
+            };
+            told.put(position, || answer(view.system(), &requirements[position], options, outcome.clone()));
+            outcome
         });
         let judged: Vec<Outcome> = judged.collect();
         members.into_iter().zip(judged).for_each(|(position, outcome)| outcomes[position] = outcome);
@@ -181,6 +215,7 @@ fn check_markings(
     requirements: &[(Requirement, Demand)],
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    told: &InOrder<'_>,
 ) -> Report {
     let markings = Markings::explored(&system.net, options.budget, watch);
     let view = TransitionView { markings, system };
@@ -188,10 +223,15 @@ fn check_markings(
     let fair = Fair::on(&view, &options.fairness);
     let left_out = fair.as_ref().and_then(Fair::left_out);
     let judge = Judge { view: &view, graph, fair: fair.as_ref(), budget: options.budget };
-    let outcomes = requirements.par_iter().map(|(_, demand)| match demand {
-        Demand::Formula(formula) => judge.outcome(formula),
-        Demand::Possible(formula) => judge.outcome_of_possibility(formula),
-        Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
+    told.begin(|| report(system, requirements, options, graph, left_out.clone()));
+    let outcomes = requirements.par_iter().enumerate().map(|(position, asked)| {
+        let outcome = match &asked.1 {
+            Demand::Formula(formula) => judge.outcome(formula),
+            Demand::Possible(formula) => judge.outcome_of_possibility(formula),
+            Demand::EveryLine => Outcome::Unknown("this is checked in the scan view".to_owned()),
+        };
+        told.put(position, || answer(system, asked, options, outcome.clone()));
+        outcome
     });
     // What must be so whenever control comes somewhere, and the checks, are about all runs.
     let unfair = Judge { fair: None, ..judge };

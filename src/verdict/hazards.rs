@@ -2,6 +2,7 @@
 //! instructions can meet, unless it is tolerated.
 
 use super::failing::{Failing, failing_scan};
+use super::why::of_error;
 use super::{Answer, Outcome};
 use crate::explore::{Failure, Graph, ScanSpace};
 use crate::flat::{FlatProgram, Hazard, Tolerated};
@@ -42,7 +43,10 @@ pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph, hazard: Hazard) -> Outcome
     match failing_scan(space, graph, met) {
         Failing::None if graph.is_complete() && graph.knows_initial() => Outcome::holds(),
         Failing::None => Outcome::Unknown(super::failing::what_is_missing(graph)),
-        Failing::Shown(witness) => Outcome::Violated(witness, None),
+        Failing::Shown(witness) => {
+            let why = of_error(space.system(), &witness);
+            Outcome::Violated(witness, why)
+        }
         Failing::Refuted(disagreement) => super::check::disagreed(&disagreement.to_string()),
     }
 }

@@ -9,10 +9,12 @@ mod coverage;
 mod every_line;
 mod failing;
 mod fairness;
+mod focus;
 mod hazards;
 mod independence;
 mod known;
 mod net;
+mod news;
 mod on_paths;
 mod possible;
 mod premises;
@@ -23,11 +25,13 @@ mod views;
 mod why;
 
 pub use answer::{Answer, Change, Repair, Why, Writer};
-pub use check::{Options, check};
+pub use check::{Options, check, check_aloud};
 pub use coverage::Coverage;
+pub use focus::Focus;
 pub use independence::Independence;
-pub use known::{Known, check_knowing, fingerprint};
+pub use known::{Known, check_knowing, check_knowing_aloud, fingerprint};
 pub use net::{Branch, Examination, Means, NetReport, Question, Reply, Run, judge, judge_aloud};
+pub use news::{News, Tell};
 pub use remarks::Remark;
 
 use serde::{Deserialize, Serialize};

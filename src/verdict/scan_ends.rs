@@ -1,6 +1,7 @@
 //! The check that every scan ends, made without asking: a program with a loop may never come to its end.
 
 use super::failing::{Failing, failing_scan, what_is_missing};
+use super::why::of_error;
 use super::{Answer, Outcome};
 use crate::explore::{Failure, Graph, ScanSpace, Stop};
 use crate::flat::{FlatProgram, Instruction};
@@ -33,7 +34,10 @@ pub fn formula(system: &System) -> Bound {
 /// The check in the scan view: the search has met every scan there is.
 pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
     match failing_scan(space, graph, |failure| *failure == Failure::Scan(Fault::Endless)) {
-        Failing::Shown(witness) => return Outcome::Violated(witness, None),
+        Failing::Shown(witness) => {
+            let why = of_error(space.system(), &witness);
+            return Outcome::Violated(witness, why);
+        }
         Failing::Refuted(disagreement) => {
             return Outcome::Unknown(format!("the replay refutes the search: {disagreement}"));
         }

@@ -4,7 +4,9 @@
 //! The replay plays the token game of [`crate::net`] firing by firing and runs the interpreter beside it, instruction by
 //! instruction; net and interpreter must agree on every bit at every step, and with what the search claims.
 
+mod columns;
 mod firing_trace;
+mod fold;
 mod narrate;
 mod recalled;
 mod replay;
@@ -13,8 +15,10 @@ mod story;
 mod table;
 mod writes;
 
+pub use columns::Columns;
 pub use firing_trace::{FiringTrace, firing_trace, replay_firings};
-pub use narrate::{firing_table, line_by_line, marked_scan_table, scan_table};
+pub use fold::{Fold, Moved, Piece, fold};
+pub use narrate::{Shown, firing_table, line_by_line, piecewise_scan_table, scan_table};
 pub use recalled::Recalled;
 pub use replay::{Disagreement, Replay};
 pub use scan_trace::{Holds, PlantMove, Scan, ScanTrace, replay_lines, replay_scans, scan_trace, scan_trace_to};

@@ -1,7 +1,9 @@
 //! Traces told in the terms of the program: a table of scans, and the instructions of a scan with the current result.
 
+use super::columns::Columns;
 use super::firing_trace::FiringTrace;
-use super::scan_trace::ScanTrace;
+use super::fold::Piece;
+use super::scan_trace::{Scan, ScanTrace};
 use super::story::story;
 use super::table::{Column, Table};
 use crate::flat::value_text;
@@ -9,48 +11,80 @@ use crate::semantics::{Role, VarId};
 use crate::source::Source;
 use crate::translate::{System, TransitionRole};
 
+/// Values that move in a folded stretch of which the table tells at most.
+const MOST_MOVEMENTS: usize = 12;
+
 /// A table with one row a scan: inputs, memory, outputs, and what the plant did before. A star marks a value that differs
 /// from the one a scan earlier (for the first scan, from the one at power-on). The last scan of a lasso is marked with the
 /// scan it repeats.
 #[must_use]
 pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
-    marked_scan_table(system, trace, &|_, _| false)
+    let columns = Columns::chosen(&system.program, &|_| true);
+    let pieces: Vec<Piece> = (0..trace.scans.len()).map(Piece::Scan).collect();
+    piecewise_scan_table(system, trace, &Shown { columns, pieces, is_marked: &|_, _| false, is_ascii: false })
 }
 
-/// The same with an exclamation mark at some values, each of a scan (from 0) and a variable.
+/// The parts of a run that a table shows.
+pub struct Shown<'a> {
+    /// The variables.
+    pub columns: Columns,
+    /// The scans, some of them folded.
+    pub pieces: Vec<Piece>,
+    /// Whether a value, of a scan (from 0) and a variable, has an exclamation mark.
+    pub is_marked: &'a dyn Fn(usize, VarId) -> bool,
+    /// Whether only ASCII is used beside names.
+    pub is_ascii: bool,
+}
+
+/// A table as [`scan_table`] makes it, of some variables, with one line for each stretch that is folded.
 #[must_use]
-pub fn marked_scan_table(system: &System, trace: &ScanTrace, is_marked: &dyn Fn(usize, VarId) -> bool) -> Table {
+pub fn piecewise_scan_table(system: &System, trace: &ScanTrace, shown: &Shown<'_>) -> Table {
     let program = &system.program;
-    let groups: Vec<Vec<VarId>> =
-        [Role::Input, Role::Memory, Role::Output].map(|role| program.with_role(role).collect()).into();
     let head = |ids: &Vec<VarId>| ids.iter().map(|&id| Column::right(&program.variable(id).name)).collect();
     let has_moves = trace.scans.iter().any(|scan| !scan.moves.is_empty());
     let mut heads = vec![vec![Column::right("scan")]];
-    heads.extend(groups.iter().map(head));
+    heads.extend(shown.columns.groups.iter().map(head));
     heads.push(if has_moves { vec![Column::left("plant, before the scan")] } else { vec![] });
     let mut table = Table::new(heads);
-    let mut before: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
-    for (position, scan) in trace.scans.iter().enumerate() {
+    let power_on: Vec<u64> = program.variables.iter().map(|variable| variable.initial).collect();
+    let (dots, arrow) = if shown.is_ascii { ("...", "->") } else { ("…", "→") };
+    for piece in &shown.pieces {
+        let position = match piece {
+            Piece::Scan(position) => *position,
+            Piece::Fold(fold) => {
+                let mut movements = fold.movements(program, arrow);
+                if let Some(more @ 1..) = movements.len().checked_sub(MOST_MOVEMENTS) {
+                    movements.truncate(MOST_MOVEMENTS);
+                    movements.push(format!("{more} more"));
+                }
+                let colon = if movements.is_empty() { "" } else { ": " };
+                table.across(format!("{dots} {}{colon}{} {dots}", fold.title(), movements.join(", ")));
+                continue;
+            }
+        };
+        let scan = &trace.scans[position];
+        let end_of = |scan: &Scan| scan.end.as_ref().map(|end| end.memory.clone());
+        let before = position.checked_sub(1).and_then(|before| end_of(&trace.scans[before]));
+        let before = before.unwrap_or_else(|| power_on.clone());
         let mut memory = before.clone();
-        match &scan.end {
-            Some(end) => memory.clone_from(&end.memory),
+        match end_of(scan) {
+            Some(end) => memory = end,
             None => scan.inputs.iter().for_each(|&(input, value)| memory[input.0] = value),
         }
         let repeats = trace.loop_start.filter(|_| position + 1 == trace.scans.len());
         let repeats = repeats.map(|start| format!(" = {}", start + 1)).unwrap_or_default();
         let mut row = vec![format!("{}{repeats}", position + 1)];
-        for &id in groups.iter().flatten() {
+        for id in shown.columns.iter() {
             let unknown = scan.end.is_none() && program.variable(id).role != Role::Input;
             let star = if memory[id.0] == before[id.0] { "" } else { "*" };
             let value = program.value_text(id, memory[id.0]);
-            let mark = if is_marked(position, id) { "!" } else { "" };
+            let mark = if (shown.is_marked)(position, id) { "!" } else { "" };
             row.push(if unknown { "?".to_owned() } else { format!("{mark}{star}{value}") });
         }
         if has_moves {
             row.push(scan.done(system));
         }
         table.row(row);
-        before = memory;
     }
     table
 }

@@ -31,7 +31,16 @@ impl Column {
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     groups: Vec<Vec<Column>>,
-    rows: Vec<Vec<String>>,
+    rows: Vec<Row>,
+}
+
+/// A row of a table.
+#[derive(Clone, Debug)]
+enum Row {
+    /// One cell for each column.
+    Cells(Vec<String>),
+    /// A text across all columns.
+    Across(String),
 }
 
 impl Table {
@@ -43,7 +52,12 @@ impl Table {
 
     /// Adds a row: one cell for each column. Each is one line of printable text, whatever is in it.
     pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(cells.iter().map(|cell| printable::line(cell)).collect());
+        self.rows.push(Row::Cells(cells.iter().map(|cell| printable::line(cell)).collect()));
+    }
+
+    /// Adds a line of text across all columns.
+    pub fn across(&mut self, text: String) {
+        self.rows.push(Row::Across(printable::line(&text)));
     }
 
     /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of
@@ -73,25 +87,33 @@ impl Table {
             }
         }
         let texts: Vec<String> =
-            blocks.iter().map(|block| self.block(&widths, &|column| block.contains(&column))).collect();
-        if texts.is_empty() { self.to_string() } else { texts.join("\n") }
+            blocks.iter().map(|block| self.block(&widths, width, &|column| block.contains(&column))).collect();
+        if texts.is_empty() { self.block(&widths, width, &|_| true) } else { texts.join("\n") }
     }
 
     /// How wide each column is.
     fn widths(&self) -> Vec<usize> {
         let heads = self.groups.iter().flatten().map(|column| column.head.as_str());
         let width = |(i, head): (usize, &str)| {
-            let cells = self.rows.iter().map(|row| row[i].as_str());
+            let cells = self.rows.iter().filter_map(|row| match row {
+                Row::Cells(cells) => Some(cells[i].as_str()),
+                Row::Across(_) => None,
+            });
             cells.chain([head]).map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         heads.enumerate().map(width).collect()
     }
 
-    /// Some columns of the table.
-    fn block(&self, widths: &[usize], shown: &dyn Fn(usize) -> bool) -> String {
+    /// Some columns of the table. Texts across it are broken where the line has `width` characters.
+    fn block(&self, widths: &[usize], width: usize, shown: &dyn Fn(usize) -> bool) -> String {
         let mut text = self.line(widths, shown, " | ", |_, column| column.head.clone());
         text += &self.line(widths, shown, "-+-", |i, _| "-".repeat(widths[i]));
-        self.rows.iter().for_each(|row| text += &self.line(widths, shown, " | ", |i, _| row[i].clone()));
+        for row in &self.rows {
+            match row {
+                Row::Cells(cells) => text += &self.line(widths, shown, " | ", |i, _| cells[i].clone()),
+                Row::Across(across) => text += &broken(across, width),
+            }
+        }
         text
     }
 
@@ -119,8 +141,27 @@ impl Table {
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.block(&self.widths(), &|_| true))
+        f.write_str(&self.block(&self.widths(), usize::MAX, &|_| true))
     }
+}
+
+/// A text in lines of at most `width` characters, as far as its words allow; all but the first are indented.
+fn broken(text: &str, width: usize) -> String {
+    const HANG: usize = 4;
+    let (mut out, mut used) = (String::new(), 0);
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        if used > HANG && used.saturating_add(1 + length) > width {
+            out += &format!("\n{:HANG$}", "");
+            used = HANG;
+        } else if used > 0 {
+            out.push(' ');
+            used += 1;
+        }
+        out += word;
+        used += length;
+    }
+    out + "\n"
 }
 
 #[cfg(test)]
@@ -139,5 +180,15 @@ mod tests {
         assert_eq!(table.within(21), split);
         let apart = "scan | In\n-----+---\n   1 | *1\n\nscan | Stop\n-----+-----\n   1 |    0\n\nscan | Motor\n-----+------\n   1 |    *1\n";
         assert_eq!(table.within(5), apart, "what does not fit stands alone");
+    }
+
+    #[test]
+    fn a_text_across_a_table_is_broken_at_words() {
+        let mut table = Table::new(vec![vec![Column::right("scan")], vec![Column::right("n")]]);
+        table.row(vec!["1".to_owned(), "7".to_owned()]);
+        table.across("… 40 scans: n 7 → 47 …".to_owned());
+        let head = "scan | n\n-----+--\n   1 | 7\n";
+        assert_eq!(table.to_string(), format!("{head}… 40 scans: n 7 → 47 …\n"));
+        assert_eq!(table.within(14), format!("{head}… 40 scans: n\n    7 → 47 …\n"));
     }
 }

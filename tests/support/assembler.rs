@@ -28,6 +28,7 @@ pub fn assemble(declarations: &str, code: &str) -> FlatProgram {
         presets_vary: false,
         restrictions: Default::default(),
         addresses: Default::default(),
+        internal: Default::default(),
     }
 }
 

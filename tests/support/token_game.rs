@@ -151,6 +151,7 @@ pub fn flat(mut variables: Vec<Variable>, code: Vec<Instruction>) -> FlatProgram
         presets_vary: false,
         restrictions: Default::default(),
         addresses: Default::default(),
+        internal: Default::default(),
     }
 }
 

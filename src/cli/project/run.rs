@@ -1,10 +1,11 @@
 //! A run of a project: all programs beside each other, told in their order.
 
 use std::ffi::OsString;
+use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -23,7 +24,7 @@ use crate::cli::check::{Done, checked, code};
 use crate::cli::console::{Console, Told};
 use crate::cli::progress::{Watcher, use_threads};
 use crate::cli::report::Text;
-use crate::cli::{Failure, Outcome, guard};
+use crate::cli::{Failure, Outcome, guard, sign_of_life};
 
 /// A program of the project that was checked, or could not be.
 pub struct Judged {
@@ -92,6 +93,8 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} programs, {elapsed}: {wide_msg}") {
         bar.set_style(style);
     }
+    sign_of_life::begin();
+    let tally = Mutex::new(Tally { all: checks.len(), ..Tally::default() });
     let (next, colour, read) = (AtomicUsize::new(0), console.colour(), console.provenance().inputs);
     let (found, results) = mpsc::channel();
     // These threads wait for the ones that compute, of which there is one for each processor. A program that is checked never takes
@@ -99,14 +102,20 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     let workers = rayon::current_num_threads().min(checks.len());
     thread::scope(|scope| {
         for _ in 0..workers {
-            let (found, next, checks, bar, read) = (found.clone(), &next, &checks, &bar, &read);
+            let (found, next, checks, bar, tally, read) = (found.clone(), &next, &checks, &bar, &tally, &read);
             scope.spawn(move || {
                 while let Some((position, (arguments, entry))) = take(next, checks) {
                     bar.set_message(line(&entry.name));
                     let own = Console::holding(colour, read.clone());
                     let watcher = Watcher::unseen(&arguments.limits);
-                    let done = watcher.and_then(|watcher| checked(arguments, &entry.program, cache, &own, &watcher));
+                    let done =
+                        watcher.and_then(|watcher| checked(arguments, &entry.program, cache, &own, &watcher, None));
                     bar.inc(1);
+                    let verdict = done.as_ref().map(|done| done.report.verdict());
+                    let mut tally = tally.lock().unwrap_or_else(PoisonError::into_inner);
+                    tally.count(verdict.unwrap_or(Verdict::Holds));
+                    sign_of_life::say(tally.to_string());
+                    drop(tally);
                     // Who waits for this is still there.
                     let _ = found.send((position, done, own.told()));
                 }
@@ -114,6 +123,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
         }
     });
     drop(found);
+    sign_of_life::end();
     bar.finish_and_clear();
     let mut results: Vec<(usize, Result<Done, Failure>, Told)> = results.iter().collect();
     results.sort_by_key(|&(position, ..)| position);
@@ -126,6 +136,27 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
         Judged { name: entry.name, arguments, done, diagnostics }
     };
     checks.into_iter().zip(results).map(told).collect()
+}
+
+/// Number of programs that are done.
+#[derive(Default)]
+struct Tally {
+    all: usize,
+    done: usize,
+    violated: usize,
+}
+
+impl Tally {
+    fn count(&mut self, verdict: Verdict) {
+        self.done += 1;
+        self.violated += usize::from(verdict == Verdict::Violated);
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {} programs, {} violated", self.done, self.all, self.violated)
+    }
 }
 
 /// The next one that nobody has taken.

@@ -2,14 +2,17 @@
 
 use petril::logic::Tag;
 use petril::semantics::VarId;
-use petril::verdict::{Answer, Independence, Outcome, Report, Trace, Verdict, Why, Witness};
-use petril::witness::{FiringTrace, ScanTrace, firing_table, line_by_line, marked_scan_table};
+use petril::verdict::{Answer, Focus, Independence, Outcome, Report, Trace, Verdict, Why, Witness};
+use petril::witness::{
+    Columns, FiringTrace, Piece, ScanTrace, Shown, firing_table, line_by_line, piecewise_scan_table,
+};
 
 use super::Text;
 use super::diagram::{ASCII, UNICODE, diagram};
 use super::layout::{INDENT, indent, paragraph};
 use super::summary::length;
 use crate::cli::console::Colour;
+use crate::cli::show;
 
 impl Text<'_> {
     /// Everything that is told of a requirement.
@@ -34,10 +37,12 @@ impl Text<'_> {
                     });
                 }
                 match (witness, example) {
-                    (Some(witness), _) if self.arguments.witnesses => out += &self.witness(witness, None, report),
+                    (Some(witness), _) if self.arguments.witnesses => {
+                        out += &self.witness(answer, witness, None, report)
+                    }
                     (None, Some(example)) if self.arguments.witnesses => {
                         out += &self.told("for example:");
-                        out += &self.witness(example, None, report);
+                        out += &self.witness(answer, example, None, report);
                     }
                     (Some(witness), _) => {
                         out += &self.told(&format!("shown by a run of {} (--witnesses prints it)", length(witness)));
@@ -45,7 +50,7 @@ impl Text<'_> {
                     _ => {}
                 }
             }
-            Outcome::Violated(witness, why) => out += &self.witness(witness, why.as_ref(), report),
+            Outcome::Violated(witness, why) => out += &self.witness(answer, witness, why.as_ref(), report),
         }
         out
     }
@@ -90,15 +95,21 @@ impl Text<'_> {
     }
 
     /// A run as a table, what it shows, and why it breaks the requirement.
-    fn witness(&self, witness: &Witness, why: Option<&Why>, report: &Report) -> String {
+    fn witness(&self, answer: &Answer, witness: &Witness, why: Option<&Why>, report: &Report) -> String {
         let changes =
             why.and_then(|why| why.repair.as_ref()).map(|repair| repair.changes.as_slice()).unwrap_or_default();
         let matters = |scan: usize, id: VarId| changes.iter().any(|change| (change.scan, change.input) == (scan, id));
-        let table = match &witness.trace {
-            Trace::Scans(trace) => marked_scan_table(self.system, trace, &matters),
-            Trace::Firings(trace) => firing_table(self.system, trace),
-        };
-        let mut out = format!("\n{}\n", indent(&table.within(self.width())));
+        let (columns, pieces) = self.shown(answer, witness);
+        let mut out = String::from("\n");
+        match &witness.trace {
+            Trace::Scans(trace) => {
+                let (columns, pieces) = (columns.clone(), pieces.clone());
+                let shown = Shown { columns, pieces, is_marked: &matters, is_ascii: self.is_plain() };
+                out += &indent(&piecewise_scan_table(self.system, trace, &shown).within(self.width()));
+            }
+            Trace::Firings(trace) => out += &indent(&firing_table(self.system, trace).within(self.width())),
+        }
+        out += "\n";
         // What is so after one scan is told again by what was wanted.
         let is_told = why.is_some_and(|why| !why.wanted.is_empty()) && !self.arguments.details;
         for note in witness.notes.iter().filter(|note| !is_told || note.first != note.last) {
@@ -109,9 +120,8 @@ impl Text<'_> {
         let (details, by_line) = (self.arguments.details, self.arguments.by_line || self.arguments.details);
         if let Trace::Scans(trace) = &witness.trace {
             if details {
-                let plain = self.arguments.ascii || !self.console.has_unicode();
-                let pen = if plain { &ASCII } else { &UNICODE };
-                let drawn = indent(&diagram(self.system, trace, self.width(), pen));
+                let pen = if self.is_plain() { &ASCII } else { &UNICODE };
+                let drawn = indent(&diagram(self.system, trace, (&columns, &pieces), self.width(), pen));
                 if !drawn.is_empty() {
                     out += &format!("\n{drawn}");
                 }
@@ -123,6 +133,25 @@ impl Text<'_> {
             }
         }
         out
+    }
+
+    /// The variables of a run that are shown, and its scans, some of them folded.
+    fn shown(&self, answer: &Answer, witness: &Witness) -> (Columns, Vec<Piece>) {
+        let focus = Focus::of(answer, witness);
+        let columns = match self.arguments.show.as_slice() {
+            [] => focus.columns(self.system),
+            patterns => show::columns(&self.system.program, patterns),
+        };
+        let pieces = match &witness.trace {
+            Trace::Scans(trace) if self.arguments.every_scan => (0..trace.scans.len()).map(Piece::Scan).collect(),
+            trace => focus.pieces(self.system, trace, &columns),
+        };
+        (columns, pieces)
+    }
+
+    /// Whether only ASCII is to be printed beside names.
+    fn is_plain(&self) -> bool {
+        self.arguments.ascii || !self.console.has_unicode()
     }
 
     /// How a run ends: with an error, or never.

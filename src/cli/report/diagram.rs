@@ -1,8 +1,8 @@
 //! Timing diagrams of runs: a line for each variable, a cell for each scan.
 
-use petril::semantics::{Role, VarId};
+use petril::semantics::VarId;
 use petril::translate::System;
-use petril::witness::{Scan, ScanTrace};
+use petril::witness::{Columns, Piece, Scan, ScanTrace};
 
 /// The characters of a diagram.
 pub struct Pen {
@@ -11,61 +11,94 @@ pub struct Pen {
     rise: char,
     fall: char,
     change: char,
+    gap: char,
 }
 
 /// For every terminal.
-pub const ASCII: Pen = Pen { low: '_', high: '"', rise: '/', fall: '\\', change: '|' };
+pub const ASCII: Pen = Pen { low: '_', high: '"', rise: '/', fall: '\\', change: '|', gap: ':' };
 /// For most of them.
-pub const UNICODE: Pen = Pen { low: '▁', high: '▔', rise: '╱', fall: '╲', change: '│' };
+pub const UNICODE: Pen = Pen { low: '▁', high: '▔', rise: '╱', fall: '╲', change: '│', gap: '⋮' };
 
 /// A number is given so many characters at most.
 const WIDEST: usize = 10;
 
-/// The diagram of a run: the inputs as the scans read them, memory and outputs as they left them. It is split into pieces no wider
-/// than `width`.
-pub fn diagram(system: &System, trace: &ScanTrace, width: usize, pen: &Pen) -> String {
-    let program = &system.program;
-    let scans: Vec<&Scan> = trace.scans.iter().filter(|scan| scan.end.is_some()).collect();
-    let groups = [Role::Input, Role::Memory, Role::Output].map(|role| program.with_role(role).collect::<Vec<_>>());
-    let shown: Vec<VarId> = groups.iter().flatten().copied().collect();
-    let names =
-        shown.iter().map(|&id| program.variable(id).name.chars().count()).chain(["scan".len()]).max().unwrap_or(0);
-    let value = |scan: &Scan, id: VarId| scan.end.as_ref().map_or(0, |end| end.memory[id.0]);
-    let text = |scan: &Scan, id: VarId| program.value_text(id, value(scan, id));
-    let widest = shown.iter().filter(|&&id| !program.variable(id).ty.is_bool());
-    let widest = widest.flat_map(|&id| scans.iter().map(move |scan| text(scan, id).chars().count())).max().unwrap_or(0);
-    let cell = (widest.min(WIDEST) + 1).max(trace.scans.len().to_string().len() + 1).max(4);
-    let many = (width.saturating_sub(names + 1) / cell).max(1);
-    let mut pieces = Vec::new();
-    for (piece, part) in scans.chunks(many).enumerate() {
-        let first = piece * many;
-        let before = |position: usize| first.checked_add(position)?.checked_sub(1).map(|at| scans[at]);
-        let mut lines = vec![format!("{:<names$} {}", "scan", heads(first, part.len(), cell))];
-        for group in groups.iter().filter(|group| !group.is_empty()) {
-            for &id in group {
-                let variable = program.variable(id);
-                let mut line = format!("{:<names$} ", variable.name);
-                for (position, scan) in part.iter().enumerate() {
-                    let earlier = before(position).map_or(variable.initial, |scan| value(scan, id));
-                    let now = value(scan, id);
-                    line += &if variable.ty.is_bool() {
-                        level(earlier, now, cell, pen)
-                    } else {
-                        let is_new = earlier != now || position == 0;
-                        number(&if is_new { text(scan, id) } else { String::new() }, is_new, cell, pen)
-                    };
-                }
-                lines.push(line.trim_end().to_owned());
-            }
-        }
-        pieces.push(lines.join("\n") + "\n");
-    }
-    pieces.join("\n")
+/// A cell of each line: a scan that has ended, with the memory at its end and before it, or scans that are folded.
+enum Cell<'a> {
+    Scan { number: usize, before: Option<&'a [u64]>, now: &'a [u64] },
+    Gap,
 }
 
-/// The numbers of some scans, from 0 on.
-fn heads(first: usize, count: usize, cell: usize) -> String {
-    let heads = (first + 1..=first + count).map(|scan| format!(" {scan:<width$}", width = cell - 1));
+/// The diagram of a run: the inputs as the scans read them, memory and outputs as they left them. It is split into pieces no wider
+/// than `width`.
+pub fn diagram(
+    system: &System,
+    trace: &ScanTrace,
+    (columns, pieces): (&Columns, &[Piece]),
+    width: usize,
+    pen: &Pen,
+) -> String {
+    let program = &system.program;
+    let cells = pieces.iter().filter_map(|piece| match piece {
+        Piece::Fold(_) => Some(Cell::Gap),
+        Piece::Scan(scan) => Some(Cell::Scan {
+            number: scan + 1,
+            before: scan.checked_sub(1).and_then(|before| end_of(&trace.scans[before])),
+            now: end_of(&trace.scans[*scan])?,
+        }),
+    });
+    let cells: Vec<Cell<'_>> = cells.collect();
+    let shown: Vec<VarId> = columns.iter().collect();
+    let names =
+        shown.iter().map(|&id| program.variable(id).name.chars().count()).chain(["scan".len()]).max().unwrap_or(0);
+    let text = |memory: &[u64], id: VarId| program.value_text(id, memory[id.0]);
+    let numbers = shown.iter().filter(|&&id| !program.variable(id).ty.is_bool());
+    let widest = numbers.flat_map(|&id| {
+        cells.iter().filter_map(move |cell| match cell {
+            Cell::Scan { now, .. } => Some(text(now, id).chars().count()),
+            Cell::Gap => None,
+        })
+    });
+    let widest = widest.max().unwrap_or(0);
+    let cell_width = (widest.min(WIDEST) + 1).max(trace.scans.len().to_string().len() + 1).max(4);
+    let many = (width.saturating_sub(names + 1) / cell_width).max(1);
+    let mut drawn = Vec::new();
+    for part in cells.chunks(many) {
+        let mut lines = vec![format!("{:<names$} {}", "scan", heads(part, cell_width, pen))];
+        for &id in &shown {
+            let variable = program.variable(id);
+            let mut line = format!("{:<names$} ", variable.name);
+            for (position, cell) in part.iter().enumerate() {
+                let Cell::Scan { before, now, .. } = cell else {
+                    line += &format!("{:<cell_width$}", format!(" {}", pen.gap));
+                    continue;
+                };
+                let earlier = before.map_or(variable.initial, |before| before[id.0]);
+                line += &if variable.ty.is_bool() {
+                    level(earlier, now[id.0], cell_width, pen)
+                } else {
+                    let follows_gap = position.checked_sub(1).is_none_or(|before| matches!(part[before], Cell::Gap));
+                    let is_new = earlier != now[id.0] || follows_gap;
+                    number(&if is_new { text(now, id) } else { String::new() }, is_new, cell_width, pen)
+                };
+            }
+            lines.push(line.trim_end().to_owned());
+        }
+        drawn.push(lines.join("\n") + "\n");
+    }
+    drawn.join("\n")
+}
+
+/// The memory at the end of a scan.
+fn end_of(scan: &Scan) -> Option<&[u64]> {
+    scan.end.as_ref().map(|end| end.memory.as_slice())
+}
+
+/// The numbers of some scans.
+fn heads(cells: &[Cell<'_>], width: usize, pen: &Pen) -> String {
+    let heads = cells.iter().map(|cell| match cell {
+        Cell::Scan { number, .. } => format!(" {number:<rest$}", rest = width - 1),
+        Cell::Gap => format!("{:<width$}", format!(" {}", pen.gap)),
+    });
     heads.collect::<String>().trim_end().to_owned()
 }
 

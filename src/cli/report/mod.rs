@@ -4,16 +4,18 @@ mod answer;
 mod coverage;
 mod diagram;
 mod layout;
+mod printed;
 mod summary;
 mod why;
 
 pub use layout::{counted, indent};
+pub use printed::Printed;
 
 use petril::explore::Stop;
 use petril::logic::View;
 use petril::source::Source;
 use petril::translate::{Part, System};
-use petril::verdict::{Report, Verdict};
+use petril::verdict::{Answer, Report, Verdict};
 use petril::witness::{Column, Table};
 
 use super::args::Check;
@@ -30,21 +32,28 @@ pub struct Text<'a> {
 }
 
 impl Text<'_> {
-    /// The whole report.
-    pub fn report(&self, report: &Report) -> String {
+    /// The beginning of a report: what was explored, and under which assumptions.
+    pub fn opening(&self, report: &Report) -> String {
         let program = &self.system.program;
         let title =
             format!("program `{}` from {}, {} lines of flat code", program.name, self.source.name(), program.end());
         let mut out = paragraph("", 0, &title, self.console.output_width()) + "\n";
         out += &indent(&self.size().to_string());
         out += "\n";
-        out += &self.exploration(report);
+        out + &self.exploration(report)
+    }
+
+    /// An answer within a report, which need not have it yet.
+    pub fn next(&self, answer: &Answer, report: &Report) -> String {
+        format!("\n{}", self.answer(answer, report))
+    }
+
+    /// The end of a report, of which the first `told` answers have been told.
+    pub fn closing(&self, report: &Report, told: usize) -> String {
         // A check that holds is one word; the others are told like requirements.
         let failing = report.checks.iter().filter(|check| check.outcome.verdict() != Verdict::Holds);
-        for answer in report.answers.iter().chain(failing) {
-            out += "\n";
-            out += &self.answer(answer, report);
-        }
+        let rest = report.answers.iter().skip(told).chain(failing);
+        let mut out: String = rest.map(|answer| self.next(answer, report)).collect();
         out += "\n";
         out += &table(report, self.console);
         out += &summary(report);
@@ -125,6 +134,10 @@ impl Text<'_> {
         let mut out = String::new();
         if violated && !self.arguments.details && report.exploration.view == View::Scan {
             out += &self.line("hint", "--details draws the runs, and tells their last scans line by line");
+        }
+        let is_chosen = !self.arguments.show.is_empty();
+        if violated && !is_chosen && !self.system.program.internal.is_empty() && report.exploration.view == View::Scan {
+            out += &self.line("hint", "--show all shows what is local to instances of function blocks, too");
         }
         if examples && self.arguments.details && !self.arguments.witnesses {
             out += &self.line("hint", "--witnesses prints runs that are examples of what holds");

@@ -136,7 +136,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
         "known": answer.recalled,
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
         "formula": answer.formula,
-        "runs": runs(answer).map(|(purpose, witness)| all.run(purpose, witness)).collect::<Vec<_>>(),
+        "runs": runs(answer).map(|(purpose, witness)| all.run(answer, purpose, witness)).collect::<Vec<_>>(),
     });
     let mut set = |member: &str, value: Option<Value>| {
         if let Some(value) = value {

@@ -37,7 +37,7 @@ pub fn fallback(checked: &Checked<'_>) -> String {
             .for_each(|text| out += &format!("<p>{}</p>\n", markup(&text)));
         for (purpose, witness) in runs(answer) {
             if out.len() < MAX_TEXT {
-                let told = checked.told(witness);
+                let told = checked.told(answer, witness);
                 let _ = writeln!(out, "<p>{}:</p>\n<pre>{}</pre>", purpose.word(), markup(&told));
             }
         }

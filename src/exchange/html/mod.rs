@@ -24,9 +24,10 @@ const PAGE: &str = include_str!("page.html");
 /// Style sheets in their order.
 const STYLES: [&str; 3] = [include_str!("page.css"), include_str!("run.css"), include_str!("print.css")];
 /// Scripts in their order; each may use what those before it define.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 9] = [
     include_str!("elements.js"),
     include_str!("playback.js"),
+    include_str!("items.js"),
     include_str!("diagram.js"),
     include_str!("net.js"),
     include_str!("source.js"),

@@ -92,5 +92,24 @@ function tokenGame(picture) {
     produce.forEach((way) => go(way, delay + 160));
   }
 
-  return { element, show };
+  // Shows the places of these variables, or else the place where control is, in the middle of the box.
+  function aim(names) {
+    const of = (place) => data.nets.places[place].split("=")[0];
+    const about = picture.places.filter(([place]) => names.includes(of(place)));
+    const marked = picture.places.filter((_, i) => tokens[i][1].classList.contains("on"));
+    const chosen = about.length > 0 ? about : marked;
+    if (chosen.length === 0) return;
+    const scale = drawing.clientWidth / width || 1;
+    // What has its token, if not everything fits.
+    const centre = (axis, room) => {
+      const at = (list) => list.map((shape) => shape[axis]);
+      const all = at(chosen), least = Math.min(...all), most = Math.max(...all);
+      const here = at(chosen.filter((shape) => marked.includes(shape)));
+      return ((most - least) * scale < room - 40 || here.length === 0 ? (least + most) / 2 : here[0]) * scale - room / 2;
+    };
+    element.scrollLeft = Math.max(0, centre(1, element.clientWidth));
+    element.scrollTop = Math.max(0, centre(2, element.clientHeight));
+  }
+
+  return { element, show, aim };
 }

@@ -39,7 +39,7 @@ class Playback {
     for (let i = 0; i < at.length; i += 2) for (let j = 0; j < at[i + 1]; j++) lines.push(at[i] + j);
     const slots = lines.length + 2;
     const place = (slot) => ({ scan: k, x: k + slot / slots, look: k + (slot + 0.5) / slots });
-    this.add({ kind: "begin", ...place(0), changes: inputs, fired: scan.before || [], moves: scan.moves });
+    this.add({ kind: "begin", ...place(0), changes: inputs, fired: scan.before || [], moves: scan.moves || [] });
     lines.forEach((line, i) => {
       const write = writes[i];
       this.add({

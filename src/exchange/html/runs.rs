@@ -12,8 +12,8 @@ use crate::flat::value_text;
 use crate::net::TransitionId;
 use crate::semantics::{Role, VarId};
 use crate::translate::{System, TransitionRole};
-use crate::verdict::{Trace, Witness};
-use crate::witness::{Executed, FiringTrace, ScanTrace, ToldScan, firing_story, story};
+use crate::verdict::{Answer, Focus, Trace, Witness};
+use crate::witness::{Executed, FiringTrace, Piece, ScanTrace, ToldScan, firing_story, story};
 
 /// One run is not told whole if it takes more instructions.
 const MAX_INSTRUCTIONS: usize = 20_000;
@@ -48,15 +48,34 @@ impl<'a> Runs<'a> {
         Self { checked, shown, room: Room::default(), nets: Nets::new(checked.system) }
     }
 
-    pub fn run(&mut self, purpose: Purpose, witness: &Witness) -> Value {
+    pub fn run(&mut self, answer: &Answer, purpose: Purpose, witness: &Witness) -> Value {
         let mut run = match &witness.trace {
             Trace::Scans(trace) => self.scans(trace),
             Trace::Firings(trace) => self.firings(trace),
         };
         run["purpose"] = purpose.word().into();
+        self.shorten(&mut run, &Focus::of(answer, witness), &witness.trace);
         let view = self.checked.view();
         run["notes"] = witness.notes.iter().map(|n| json!([n.first, n.last, n.text, n.sentence(view)])).collect();
         run
+    }
+
+    /// Says which variables a run is about (`about`), which are shown in which groups (`columns`), and which scans are folded: the first
+    /// one, the last one, how many in words, and what moves.
+    fn shorten(&self, run: &mut Value, focus: &Focus, trace: &Trace) {
+        let system = self.checked.system;
+        let columns = focus.columns(system);
+        let folds = focus.pieces(system, trace, &columns).into_iter().filter_map(|piece| match piece {
+            Piece::Fold(fold) => {
+                let movements = fold.movements(&system.program, "→");
+                Some(json!([fold.first, fold.last, fold.title(), movements]))
+            }
+            Piece::Scan(_) => None,
+        });
+        run["folds"] = folds.collect();
+        let positions = |ids: &[VarId]| ids.iter().filter_map(|id| self.shown.get(id)).copied().collect::<Vec<_>>();
+        run["columns"] = columns.groups.iter().map(|group| positions(group)).collect();
+        run["about"] = positions(&focus.variables.iter().copied().collect::<Vec<_>>()).into();
     }
 
     fn scans(&mut self, trace: &ScanTrace) -> Value {
@@ -84,7 +103,15 @@ impl<'a> Runs<'a> {
                 let component = &system.plant.components[m.component];
                 component.transitions[m.transition].name.as_str()
             });
-            let mut one = json!({ "moves": names.collect::<Vec<_>>(), "in": self.changes(&mut memory, &scan.inputs) });
+            let mut one = json!({});
+            let (moves, read) = (names.collect::<Vec<_>>(), self.changes(&mut memory, &scan.inputs));
+            // What is empty is left out: runs may have many scans.
+            if !moves.is_empty() {
+                one["moves"] = moves.into();
+            }
+            if read.as_array().is_some_and(|read| !read.is_empty()) {
+                one["in"] = read;
+            }
             if let Some(end) = &scan.end {
                 let values: Vec<(VarId, u64)> = self.shown.keys().map(|&id| (id, end.memory[id.0])).collect();
                 one["end"] = self.changes(&mut memory, &values);

@@ -19,9 +19,10 @@ function buildStage(answer, run) {
   let index = 0, timer = null;
   const seek = (to) => show(to, false);
 
-  const diagram = timingDiagram(playback, { matters, notes: run.notes, seek });
+  const items = new Items(run);
+  const diagram = timingDiagram(playback, items, { matters, notes: run.notes, seek });
   const source = listing();
-  const table = runTable(playback, matters, seek);
+  const table = runTable(playback, items, matters, seek);
   const hasNets = run.tokens && data.nets !== null;
   const around = (hasNets ? data.nets.around : []).map(([name, picture]) => ({ name, game: picture ? tokenGame(picture) : null }));
   const subnets = new Map();
@@ -55,7 +56,7 @@ function buildStage(answer, run) {
     html("div", { class: "pair" },
       card("Program", source.element, "program"),
       html("div", { class: "stack" },
-        card(scans ? "Scans" : "Firings", table.element, "scans", scans && legend()),
+        card(scans ? "Scans" : "Firings", table.element, "scans", html("span", { class: "extra" }, scans && legend(), table.extra)),
         hasNets && card(netTitle, netPlace, "instruction"))),
     hasNets
       ? card("PLC cycle and plant", surroundings(), "cycle")
@@ -180,12 +181,19 @@ function buildStage(answer, run) {
     const broken = run.notes.length > 0 && scans ? run.notes[run.notes.length - 1][1] : playback.scans - 1;
     const writers = run.purpose === "counterexample" && answer.why ? answer.why.writers : [];
     const last = writers.filter(([, , scan]) => scan === broken).pop();
-    show(last ? playback.find(broken, last[3]) : scans ? playback.find(broken, -1) : playback.length - 1, false);
+    const error = scans ? playback.ticks.findLastIndex((tick) => tick.hazard) : -1;
+    show(error >= 0 ? error : last ? playback.find(broken, last[3]) : scans ? playback.find(broken, -1) : playback.length - 1, false);
+    const names = run.about.map((variable) => data.variables[variable][0]);
+    for (const { game } of around) if (game) game.aim(names);
   }
 
   const stage = {
     element, byLine, byScan, begin, stop,
-    draw: (paper) => { diagram.draw(paper); show(index, false); },
+    draw: (paper) => {
+      diagram.draw(paper);
+      if (paper) table.paper(400); else table.redraw();
+      show(index, false);
+    },
     to: (scan, line) => { stop(); show(playback.find(scan, line), false); },
     ends: (last) => { stop(); show(last ? playback.length - 1 : 0, false); },
   };

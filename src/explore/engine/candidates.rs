@@ -3,6 +3,8 @@
 //! Each transition is listed with one chunk, at those of its values that allow it. So what has to be examined in a marking is
 //! short, and each transition examined is tested at its other chunks.
 
+use rustc_hash::FxHashMap;
+
 use super::conditions::{Conditions, Ranges, TABLE};
 use super::packing::{Chunk, Packing};
 
@@ -18,6 +20,8 @@ pub(super) struct Candidates {
     tests: Vec<Vec<Test>>,
     /// Values of chunks at which a condition holds, a bit for each.
     sets: Vec<[u64; 4]>,
+    /// Where each set stands, while there may be more.
+    known: FxHashMap<[u64; 4], u32>,
 }
 
 /// A chunk at which transitions are listed.
@@ -60,6 +64,7 @@ impl Candidates {
             always: Vec::new(),
             tests: Vec::new(),
             sets: Vec::new(),
+            known: FxHashMap::default(),
         };
         all.tests.resize_with(conditions.transitions, Vec::new);
         let mut homes = vec![None; conditions.transitions];
@@ -75,6 +80,7 @@ impl Candidates {
         }
         let homeless = homes.iter().zip(0..).filter(|(home, _)| home.is_none());
         all.always = homeless.map(|(_, transition)| transition).collect();
+        all.known = FxHashMap::default();
         all
     }
 
@@ -102,11 +108,10 @@ impl Candidates {
             let mut set = [0; 4];
             let values = ranges.iter().flat_map(|&(first, last)| first..=last);
             values.for_each(|value| set[value as usize / 64] |= 1 << (value % 64));
-            let known = self.sets.iter().rposition(|known| *known == set);
-            Values::Set(known.unwrap_or_else(|| {
+            Values::Set(*self.known.entry(set).or_insert_with(|| {
                 self.sets.push(set);
-                self.sets.len() - 1
-            }) as u32)
+                self.sets.len() as u32 - 1
+            }))
         } else {
             Values::Ranges(ranges.into())
         };

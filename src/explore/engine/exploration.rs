@@ -1,15 +1,18 @@
 //! What an exploration leaves.
 
+use std::sync::OnceLock;
+
 use super::machine::Machine;
+use super::numbering::Stretch;
 use super::shard::Shard;
-use crate::explore::budget::Stop;
+use crate::explore::budget::{Progress, Stop};
 
 /// The figures of an exploration. If it was not completed, they are those of the part explored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Figures {
     /// States found.
     pub states: u64,
-    /// Of these, states whose successors were all found.
+    /// Of these, states that were looked at and fired from.
     pub expanded: u64,
     /// Pairs of an expanded state and a transition it enables.
     pub transitions: u64,
@@ -45,13 +48,22 @@ pub struct Exploration {
     pub found: Option<Vec<u64>>,
     pub(super) machine: Machine,
     pub(super) shards: Vec<Shard>,
+    /// The states in the order of their numbers, once somebody has asked for them.
+    pub(super) stretches: OnceLock<Vec<Stretch>>,
 }
 
 impl Exploration {
+    /// The figures as those of a search under way, for whoever watches work on what it found.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        let Figures { states, depth, bytes, .. } = self.figures;
+        Progress { states, expanded: states, depth, bytes }
+    }
+
     pub(super) fn refused(reason: String) -> Self {
         let bounds = super::cover::Bounds::of(&[], &[]);
         let machine = Machine::new(&[], &[], &bounds, &[]);
         let stop = Stop::Refused(reason);
-        Self { figures: Figures::default(), stop, found: None, machine, shards: Vec::new() }
+        Self { figures: Figures::default(), stop, found: None, machine, shards: Vec::new(), stretches: OnceLock::new() }
     }
 }

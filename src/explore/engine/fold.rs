@@ -16,6 +16,8 @@ pub(super) struct Fold {
     leaves: usize,
     /// The two children of each inner node; the root is the last.
     children: Vec<(usize, usize)>,
+    /// The parent of each node but the root.
+    parents: Vec<usize>,
 }
 
 /// The inner nodes above some words, children before their parents, without the root.
@@ -37,7 +39,11 @@ impl Fold {
             level = pairs.collect();
         }
         let tables = (0..words + children.len() - 1).map(|_| Interner::default()).collect();
-        Self { tables, leaves: words, children }
+        let mut parents = vec![0; words + children.len() - 1];
+        for (parent, &(left, right)) in (words..).zip(&children) {
+            (parents[left], parents[right]) = (parent, parent);
+        }
+        Self { tables, leaves: words, children, parents }
     }
 
     /// How many nodes have numbers.
@@ -47,12 +53,11 @@ impl Fold {
 
     /// The inner nodes whose numbers can change when these words do.
     pub(super) fn above(&self, words: impl Iterator<Item = usize>) -> Above {
-        let mut changed = vec![false; self.nodes() + 1];
-        words.for_each(|word| changed[word] = true);
-        for (inner, &(left, right)) in self.children.iter().enumerate() {
-            changed[self.leaves + inner] = changed[left] || changed[right];
-        }
-        (self.leaves..self.nodes()).filter(|&node| changed[node]).collect()
+        let up = |word| std::iter::successors(self.parents.get(word), |&&node| self.parents.get(node));
+        let mut above: Above = words.flat_map(up).copied().filter(|&node| node < self.nodes()).collect();
+        above.sort_unstable();
+        above.dedup();
+        above
     }
 
     /// Numbers a leaf.

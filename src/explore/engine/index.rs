@@ -3,6 +3,7 @@
 use std::hint::black_box;
 
 use super::keys::{BATCH, Keys};
+use crate::explore::budget::is_available;
 
 /// Keys with a number each.
 pub(super) struct Index {
@@ -14,25 +15,30 @@ pub(super) struct Index {
 type Entries<'a> = &'a dyn Fn(&mut dyn FnMut(u64, u32));
 
 impl Index {
-    /// An index of about so many keys of some bits.
-    pub(super) fn of(bits: u32, room: usize, entries: Entries<'_>) -> Self {
+    /// An index of about so many keys of some bits. Nothing if there is too little memory.
+    pub(super) fn of(bits: u32, room: usize, entries: Entries<'_>) -> Option<Self> {
+        // Entries of 8 bytes and numbers of 4, with room to spare.
+        if !is_available(room as u64 * 32) {
+            return None;
+        }
+        let mut complete = true;
         let mut keys = Keys::in_lines(bits, room);
         let mut batch = Vec::with_capacity(BATCH);
         entries(&mut |key, _| {
             batch.push(key);
             if batch.len() == BATCH {
-                keys.insert(&batch, |_| {});
+                complete &= keys.insert(&batch, |_| {});
                 batch.clear();
             }
         });
-        keys.insert(&batch, |_| {});
+        complete &= keys.insert(&batch, |_| {});
         let mut numbers = vec![0; keys.slots()];
         entries(&mut |key, number| {
             if let Some(slot) = keys.slot(key) {
                 numbers[slot] = number;
             }
         });
-        Self { keys, numbers }
+        complete.then_some(Self { keys, numbers })
     }
 
     /// Reports the positions of keys that have a number, with it.
@@ -64,7 +70,7 @@ mod tests {
                 let entries = |enter: &mut dyn FnMut(u64, u32)| {
                     keys.iter().zip(0..).for_each(|(&key, number)| enter(key, number));
                 };
-                let index = Index::of(bits, keys.len(), &entries);
+                let index = Index::of(bits, keys.len(), &entries).unwrap();
                 let mut found = vec![None; keys.len()];
                 index.find(keys, |position, number| found[position] = Some(number));
                 let mut expected = vec![None; keys.len()];

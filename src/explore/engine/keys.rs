@@ -6,11 +6,14 @@
 use std::hint::black_box;
 
 use super::lines::{Entered, Entry, Lines, capacity};
+use crate::explore::budget::is_available;
 
 /// A set of keys of a fixed number of bits.
 pub(super) struct Keys {
     bits: u32,
     shape: Shape,
+    /// Bytes that the table and a larger one may take together while one is made of the other.
+    most: u64,
 }
 
 enum Shape {
@@ -27,13 +30,16 @@ enum Shape {
 /// Bits of keys for which a bit for each possible key is always used: 256 KiB.
 const DENSE: u32 = 21;
 
+/// Bytes of tables that are made whatever the limit is.
+const SMALL: u64 = 1 << 20;
+
 /// Keys entered together. Their lines fit into the nearest memory.
 pub(super) const BATCH: usize = 128;
 
 impl Keys {
     /// An empty set of keys of 1 to 64 bits, in lines, with room for so many.
     pub(super) fn in_lines(bits: u32, room: usize) -> Self {
-        Self { bits, shape: Shape::lines(bits, room) }
+        Self { bits, shape: Shape::lines(bits, room), most: u64::MAX }
     }
 
     /// Where a key is, as a number below [`Self::slots`].
@@ -70,7 +76,7 @@ impl Keys {
 
     /// An empty set of keys of 1 to 64 bits.
     pub(super) fn new(bits: u32) -> Self {
-        Self { bits, shape: Shape::of(bits, 1 << 15) }
+        Self { bits, shape: Shape::of(bits, 1 << 15), most: u64::MAX }
     }
 
     /// How many bits a key has.
@@ -93,11 +99,20 @@ impl Keys {
         self.shape.bytes()
     }
 
-    /// Enters keys, and reports the positions of those that were not there.
+    /// From now on, the table grows only if it and the larger one take at most so many bytes.
+    pub(super) fn grow_within(&mut self, most: u64) {
+        self.most = most;
+    }
+
+    /// Enters keys, and reports the positions of those that were not there. False if there is no room for some of them, which
+    /// are left out.
+    #[must_use]
     #[inline]
-    pub(super) fn insert(&mut self, keys: &[u64], mut new: impl FnMut(usize)) {
+    pub(super) fn insert(&mut self, keys: &[u64], mut new: impl FnMut(usize)) -> bool {
         for (number, batch) in keys.chunks(BATCH).enumerate() {
-            self.reserve(batch.len());
+            if !self.reserve(batch.len()) {
+                return false;
+            }
             let start = number * BATCH;
             let mut done = 0;
             while done < batch.len() {
@@ -109,21 +124,28 @@ impl Keys {
                     Shape::Long(lines) => enter(lines, batch, |at| new(start + at)),
                 };
                 done += entered;
-                if entered < batch.len() {
-                    self.grow();
+                if entered < batch.len() && !self.grow() {
+                    return false;
                 }
             }
         }
+        true
     }
 
-    /// Makes keys of more bits of all keys.
-    pub(super) fn widen(&mut self, bits: u32, key: impl Fn(u64) -> u64) {
-        let mut wider = Self { bits, shape: Shape::of(bits, self.len() + (1 << 15)) };
+    /// Makes keys of more bits of all keys. False, and nothing done, if there is no room for that.
+    #[must_use]
+    pub(super) fn widen(&mut self, bits: u32, key: impl Fn(u64) -> u64) -> bool {
+        // Entries of more bits, and room for more of them.
+        if !self.may_take(self.bytes().saturating_mul(4)) {
+            return false;
+        }
+        let mut wider = Self { bits, shape: Shape::of(bits, self.len() + (1 << 15)), most: u64::MAX };
         let mut batch = Vec::with_capacity(BATCH);
+        let mut complete = true;
         let mut add = |old| {
             batch.push(key(old));
             if batch.len() == BATCH {
-                wider.insert(&batch, |_| {});
+                complete &= wider.insert(&batch, |_| {});
                 batch.clear();
             }
         };
@@ -137,27 +159,38 @@ impl Keys {
             Shape::Medium(lines) => lines.keys().for_each(add),
             Shape::Long(lines) => lines.keys().for_each(add),
         }
-        wider.insert(&batch, |_| {});
-        *self = wider;
+        complete &= wider.insert(&batch, |_| {});
+        wider.most = self.most;
+        if complete {
+            *self = wider;
+        }
+        complete
     }
 
-    /// Makes room for so many keys more.
-    fn reserve(&mut self, more: usize) {
+    /// Whether a table of so many bytes may be made beside this one.
+    fn may_take(&self, bytes: u64) -> bool {
+        self.bytes().saturating_add(bytes) <= self.most.max(SMALL) && is_available(bytes)
+    }
+
+    /// Makes room for so many keys more. False if that takes too much memory.
+    fn reserve(&mut self, more: usize) -> bool {
         let full = match &self.shape {
             Shape::Dense { .. } => false,
             Shape::Short(lines) => lines.len() + more > lines.room(),
             Shape::Medium(lines) => lines.len() + more > lines.room(),
             Shape::Long(lines) => lines.len() + more > lines.room(),
         };
-        if full {
-            self.grow();
-        }
+        !full || self.grow()
     }
 
-    /// Twice the room.
-    fn grow(&mut self) {
+    /// Twice the room. False, and nothing done, if that takes too much memory.
+    fn grow(&mut self) -> bool {
+        // Entries never become longer by that.
+        if !self.may_take(self.bytes().saturating_mul(2)) {
+            return false;
+        }
         let room = match &self.shape {
-            Shape::Dense { .. } => return,
+            Shape::Dense { .. } => return true,
             Shape::Short(lines) => lines.room(),
             Shape::Medium(lines) => lines.room(),
             Shape::Long(lines) => lines.room(),
@@ -173,7 +206,7 @@ impl Keys {
             };
             if done {
                 self.shape = shape;
-                return;
+                return true;
             }
             room *= 2;
         }

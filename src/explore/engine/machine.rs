@@ -21,6 +21,8 @@ pub(super) struct Machine {
     pub(super) enabled: Allowed,
     /// The transitions whose firing no digit is too small for; nothing if that is all.
     pub(super) fits: Option<Allowed>,
+    /// For each transition, the digits without a proven bound that it raises, and by how much; nothing if there are none.
+    raised: Vec<Vec<(usize, u64)>>,
     pub(super) swaps: Swaps,
     pub(super) meter: Meter,
     /// What firing a transition adds to a marking of one word.
@@ -47,30 +49,49 @@ impl Machine {
         };
         let grows = packing.unproven().next().is_some();
         let fits = grows.then(|| Allowed::of(&packing, &Conditions::fitting(&packing, rules, bounds), width, false));
-        let rows: Vec<Vec<u64>> = rules.iter().map(|rule| packing.change(rule)).collect();
-        let fold = (packing.words() > 1).then(|| Fold::new(packing.words()));
-        let changes = fold.iter().flat_map(|fold| rows.iter().map(|row| Changes::of(row, fold))).collect();
+        let raised = if grows { rules.iter().map(|rule| raised(rule, bounds)).collect() } else { Vec::new() };
+        let rows = rules.iter().map(|rule| packing.change(rule));
+        let (mut change, mut changes) = (Vec::new(), Vec::new());
+        if packing.words() > 1 {
+            let fold = Fold::new(packing.words());
+            changes =
+                rows.map(|words| Changes { above: fold.above(words.iter().map(|&(word, _)| word)), words }).collect();
+        } else {
+            change = rows.map(|words| words.first().map_or(0, |&(_, change)| change)).collect();
+        }
         Self {
             initial: packing.pack(initial).unwrap_or_default(),
             transitions: rules.len(),
             width,
             enabled: Allowed::of(&packing, &Conditions::enabling(&packing, rules), width, true),
             fits,
+            raised,
             swaps: Swaps::of(rules, initial.len(), width),
             meter: Meter::of(&packing, initial, rules),
-            change: rows.iter().map(|row| row[0]).collect(),
+            change,
             changes,
             packing,
         }
     }
 
-    /// Fires a transition.
-    pub(super) fn fire(&self, transition: usize, words: &mut [u64]) {
+    /// Whether no digit is too small for firing a transition, so that nothing is carried into its neighbour.
+    pub(super) fn fits(&self, transition: usize, words: &[u64]) -> bool {
+        let raised = self.raised.get(transition).map_or(&[][..], Vec::as_slice);
+        raised.iter().all(|&(place, more)| self.packing.has_room(words, place, more))
+    }
+
+    /// Fires a transition that is enabled. False, and nothing done, if a digit is too small.
+    #[must_use]
+    pub(super) fn fire(&self, transition: usize, words: &mut [u64]) -> bool {
+        if !self.fits(transition, words) {
+            return false;
+        }
         if let Some(changes) = self.changes.get(transition) {
             changes.words.iter().for_each(|&(word, change)| words[word] = words[word].wrapping_add(change));
         } else {
             words[0] = words[0].wrapping_add(self.change[transition]);
         }
+        true
     }
 
     /// Undoes a firing.
@@ -88,10 +109,8 @@ impl Machine {
     }
 }
 
-impl Changes {
-    fn of(row: &[u64], fold: &Fold) -> Self {
-        let words: Vec<(usize, u64)> = row.iter().copied().enumerate().filter(|&(_, change)| change != 0).collect();
-        let above = fold.above(words.iter().map(|&(word, _)| word));
-        Self { words, above }
-    }
+/// The places without a bound where a transition leaves more tokens, and how many more.
+fn raised(rule: &Rule, bounds: &Bounds) -> Vec<(usize, u64)> {
+    let raised = rule.iter().filter(|touch| touch.change() > 0 && !bounds.is_bounded(touch.place));
+    raised.map(|touch| (touch.place, touch.change().unsigned_abs())).collect()
 }

@@ -42,5 +42,5 @@ pub use exploration::{Exploration, Figures};
 pub use graph::Steps;
 pub use model::{Arcs, Model};
 pub use reader::Reader;
-pub use search::{Options, explore, explore_towards};
+pub use search::{Options, Wanted, explore, explore_towards};
 pub use view::View;

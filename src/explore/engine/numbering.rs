@@ -1,4 +1,5 @@
-//! Numbers for the states kept: 0 for the initial one, and the others in the order of their distances from it.
+//! Numbers for the states kept: 0 for the initial one, and the others in the order of their distances from it. States that
+//! were not expanded are the last ones, on any number of threads: of those at one distance, the expanded ones come first.
 
 use std::ops::Range;
 
@@ -22,20 +23,41 @@ impl Exploration {
         self.shards.iter().map(Shard::len).sum()
     }
 
+    /// How many of the states kept were expanded, which are the first ones.
+    #[must_use]
+    pub fn expanded(&self) -> usize {
+        self.shards.iter().map(Shard::expanded).sum()
+    }
+
     /// All states in the order of their numbers.
-    pub(super) fn stretches(&self) -> Vec<Stretch> {
+    pub(super) fn stretches(&self) -> &[Stretch] {
+        self.stretches.get_or_init(|| self.numbered())
+    }
+
+    fn numbered(&self) -> Vec<Stretch> {
         let levels = self.shards.first().map_or(0, |shard| shard.levels.len());
-        let mut stretches = Vec::new();
+        let mut stretches: Vec<Stretch> = Vec::new();
         let mut first = 0;
-        for level in 0..=levels {
-            for (shard, states) in self.shards.iter().enumerate() {
-                let positions = states.level(level);
-                if !positions.is_empty() {
-                    let length = positions.len() as u32;
-                    stretches.push(Stretch { first, shard, positions });
-                    first += length;
+        let mut add = |shard, positions: Range<usize>| {
+            let length = positions.len() as u32;
+            match stretches.last_mut() {
+                _ if length == 0 => {}
+                // Nets may be deep, and most levels small.
+                Some(last) if last.shard == shard && last.positions.end == positions.start => {
+                    last.positions.end = positions.end;
                 }
+                _ => stretches.push(Stretch { first, shard, positions }),
             }
+            first += length;
+        };
+        for level in 0..=levels {
+            let level = |states: &Shard| {
+                let all = states.level(level);
+                let split = states.expanded().clamp(all.start, all.end);
+                (all.start..split, split..all.end)
+            };
+            self.shards.iter().enumerate().for_each(|(shard, states)| add(shard, level(states).0));
+            self.shards.iter().enumerate().for_each(|(shard, states)| add(shard, level(states).1));
         }
         stretches
     }
@@ -47,7 +69,7 @@ impl Exploration {
 
     /// Shows the states with these numbers.
     pub fn for_states(&self, numbers: Range<u32>, mut visit: impl FnMut(u32, &View<'_>)) {
-        self.visit(&self.stretches(), numbers, |number, _, view, _| visit(number, view));
+        self.visit(self.stretches(), numbers, |number, _, view, _| visit(number, view));
     }
 
     /// The tokens of a state.

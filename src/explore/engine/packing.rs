@@ -4,6 +4,8 @@
 //! that a table can say of each value of a chunk what it means. A large digit has a chunk of its own. No chunk stands across
 //! the end of a word. Since no digit ever leaves its range, firing a transition is one wrapping addition to each word.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::cover::{Content, Digit, Rest};
 use super::model::Rule;
 
@@ -53,32 +55,56 @@ impl Chunk {
     }
 }
 
+/// Bins by the room left in them, of which there are few kinds.
+#[derive(Default)]
+struct FirstFit(BTreeMap<u64, BTreeSet<usize>>);
+
+impl FirstFit {
+    /// The first bin with at least this room, which is taken out.
+    fn take(&mut self, room: u64) -> Option<usize> {
+        let firsts = self.0.range(room..).filter_map(|(&room, bins)| Some((*bins.first()?, room)));
+        let (bin, room) = firsts.min()?;
+        self.0.get_mut(&room)?.remove(&bin);
+        Some(bin)
+    }
+
+    fn put(&mut self, room: u64, bin: usize) {
+        self.0.entry(room).or_default().insert(bin);
+    }
+}
+
 impl Packing {
     pub(super) fn of(mut digits: Vec<Digit>, places: usize) -> Self {
         digits.sort_by_key(|digit| std::cmp::Reverse(digit.radix));
         let mut chunks: Vec<Chunk> = Vec::new();
+        let mut open = FirstFit::default();
         for digit in digits {
-            let fits = |chunk: &&mut Chunk| chunk.values <= TABLE && chunk.values.saturating_mul(digit.radix) <= TABLE;
-            if let Some(chunk) = chunks.iter_mut().find(fits) {
-                let weight = chunk.values;
+            let number = open.take(digit.radix).unwrap_or(chunks.len());
+            let chunk = if number < chunks.len() {
+                let mut together = std::mem::take(&mut chunks[number].digits);
+                let weight = chunks[number].values;
                 let values = weight * digit.radix;
-                let mut together = std::mem::take(&mut chunk.digits);
                 together.push((weight, digit));
-                *chunk = Chunk::of(together, values);
+                chunks[number] = Chunk::of(together, values);
+                &chunks[number]
             } else {
                 let values = digit.radix;
                 chunks.push(Chunk::of(vec![(1, digit)], values));
-            }
+                &chunks[number]
+            };
+            open.put(TABLE / chunk.values, number);
         }
         let mut bits: Vec<u32> = Vec::new();
+        let mut open = FirstFit::default();
         for chunk in &mut chunks {
-            chunk.word = bits.iter().position(|used| used + chunk.bits() <= 64).unwrap_or(bits.len());
+            chunk.word = open.take(chunk.bits().into()).unwrap_or(bits.len());
             if chunk.word == bits.len() {
                 bits.push(0);
             }
             // A chunk of no bits is never shifted by 64.
             chunk.shift = bits[chunk.word].min(63);
             bits[chunk.word] += chunk.bits();
+            open.put((64 - bits[chunk.word]).into(), chunk.word);
         }
         if bits.is_empty() {
             bits.push(0);
@@ -138,16 +164,34 @@ impl Packing {
         if self.elsewhere(place).iter().any(|&other| self.tokens(words, other) > 0) { 0 } else { tokens }
     }
 
-    /// What firing a transition adds to each word, wrapping.
-    pub(super) fn change(&self, rule: &Rule) -> Vec<u64> {
-        let mut change = vec![0_u64; self.words()];
-        for chunk in &self.chunks {
-            for (weight, digit) in &chunk.digits {
-                let by = (digit.content.change(rule) as u64).wrapping_mul(*weight);
-                change[chunk.word] = change[chunk.word].wrapping_add(by << chunk.shift);
-            }
+    /// The words that firing a transition changes, ascending, and what it adds to each, wrapping.
+    pub(super) fn change(&self, rule: &Rule) -> Vec<(usize, u64)> {
+        let mut digits: Vec<(usize, usize)> = rule.iter().map(|touch| self.places[touch.place]).collect();
+        digits.sort_unstable();
+        digits.dedup();
+        let mut changes: Vec<(usize, u64)> = Vec::new();
+        for (number, position) in digits {
+            let chunk = &self.chunks[number];
+            let (weight, digit) = &chunk.digits[position];
+            let by = (digit.content.change(rule) as u64).wrapping_mul(*weight) << chunk.shift;
+            changes.push((chunk.word, by));
         }
-        change
+        changes.sort_unstable_by_key(|&(word, _)| word);
+        changes.dedup_by(|next, sum| {
+            let same = next.0 == sum.0;
+            sum.1 = sum.1.wrapping_add(if same { next.1 } else { 0 });
+            same
+        });
+        changes.retain(|&(_, change)| change != 0);
+        changes
+    }
+
+    /// Whether a digit without a proven bound can count `more` tokens than it does.
+    pub(super) fn has_room(&self, words: &[u64], place: usize, more: u64) -> bool {
+        let (chunk, position) = self.places[place];
+        let chunk = &self.chunks[chunk];
+        let (weight, digit) = &chunk.digits[position];
+        more < digit.radix - chunk.get(words) / weight % digit.radix
     }
 
     /// The places whose digits may turn out to be too small.

@@ -1,5 +1,7 @@
 //! The tokens of some places, state after state.
 
+use std::collections::BTreeMap;
+
 use super::exploration::Exploration;
 use super::view::View;
 
@@ -18,14 +20,17 @@ impl Exploration {
     pub fn reader(&self, places: impl Iterator<Item = usize>) -> Reader {
         let packing = &self.machine.packing;
         let mut reader = Reader { chunks: Vec::new(), others: Vec::new() };
+        let mut known = BTreeMap::new();
         for place in places {
             let chunk = packing.chunk_of(place);
             if !packing.elsewhere(place).is_empty() {
                 reader.others.push(place);
-            } else if let Some((_, places, _)) = reader.chunks.iter_mut().find(|(known, ..)| *known == chunk) {
-                places.push(place);
             } else {
-                reader.chunks.push((chunk, vec![place], None));
+                let at = *known.entry(chunk).or_insert(reader.chunks.len());
+                if at == reader.chunks.len() {
+                    reader.chunks.push((chunk, Vec::new(), None));
+                }
+                reader.chunks[at].1.push(place);
             }
         }
         reader

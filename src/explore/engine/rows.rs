@@ -21,8 +21,8 @@ struct Table {
     mask: u64,
     /// Where the first row begins.
     start: usize,
-    /// If not empty: the values at which a new row begins, except 0.
-    breaks: Vec<u64>,
+    /// The values at which a new row begins, except 0; nothing if there is a row for each value.
+    breaks: Option<Vec<u64>>,
 }
 
 impl Rows {
@@ -49,7 +49,7 @@ impl Rows {
                 self.rows[row + transition / 64] &= !(1 << (transition % 64));
             }
         }
-        let breaks = if chunk.values > TABLE { values[1..].to_vec() } else { Vec::new() };
+        let breaks = (chunk.values > TABLE).then(|| values[1..].to_vec());
         self.tables.push(Table { word: chunk.word, shift: chunk.shift, mask: chunk.mask, start, breaks });
     }
 
@@ -94,10 +94,9 @@ impl Table {
     #[inline(always)]
     fn row(&self, words: &[u64], width: usize) -> usize {
         let value = words[self.word] >> self.shift & self.mask;
-        if self.breaks.is_empty() {
-            self.start + value as usize * width
-        } else {
-            self.start + self.breaks.partition_point(|&at| at <= value) * width
+        match &self.breaks {
+            None => self.start + value as usize * width,
+            Some(breaks) => self.start + breaks.partition_point(|&at| at <= value) * width,
         }
     }
 }

@@ -4,7 +4,7 @@
 //! thread. Counts do not depend on the number of threads, and neither do distances.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Condvar, Mutex};
+use std::sync::{Condvar, Mutex, OnceLock};
 use std::thread;
 
 use super::cover::Bounds;
@@ -35,6 +35,21 @@ impl Default for Options {
     }
 }
 
+/// Ends a search at the state that is looked for.
+pub trait Wanted: Sync {
+    /// Whether a state is the one looked for. Called once for each state expanded, by any thread.
+    fn is(&self, view: &View<'_>) -> bool;
+
+    /// The search begins again, with the initial state. States seen before will not be kept.
+    fn forget(&self) {}
+}
+
+impl<F: Fn(&View<'_>) -> bool + Sync> Wanted for F {
+    fn is(&self, view: &View<'_>) -> bool {
+        self(view)
+    }
+}
+
 /// States expanded before a thread looks at its letters and the budget.
 const BLOCK: usize = 512;
 
@@ -53,7 +68,7 @@ pub fn explore(
     model: &Model,
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
-    wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
+    wanted: Option<&dyn Wanted>,
 ) -> Exploration {
     match model.rules() {
         Ok(rules) => {
@@ -78,7 +93,7 @@ pub fn explore_towards(
         Err(reason) => return Exploration::refused(reason),
     };
     let (stubborn, bounds) = (Stubborn::of(goal, &rules, model.initial.len()), Bounds::of(&model.initial, &rules));
-    explore_within(model, &rules, &bounds, options, watch, Some(&|view| goal.holds(view)), Some(&stubborn))
+    explore_within(model, &rules, &bounds, options, watch, Some(&|view: &View<'_>| goal.holds(view)), Some(&stubborn))
 }
 
 /// As [`explore`], where the rules and bounds of the model are known; towards a goal, if there are stubborn sets for one.
@@ -88,7 +103,7 @@ pub(super) fn explore_within(
     bounds: &Bounds,
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
-    wanted: Option<&(dyn Fn(&View<'_>) -> bool + Sync)>,
+    wanted: Option<&dyn Wanted>,
     stubborn: Option<&Stubborn<'_>>,
 ) -> Exploration {
     let mut limits: Vec<u64> = model.initial.iter().map(|&tokens| tokens.max(1)).collect();
@@ -102,6 +117,9 @@ pub(super) fn explore_within(
             let shards = std::mem::take(&mut search.shards);
             return finish(model, rules, machine, shards, end, options.keep);
         };
+        if let Some(wanted) = wanted {
+            wanted.forget();
+        }
         if !raise(&mut limits, &machine, rules, &words, round) {
             break;
         }
@@ -114,12 +132,13 @@ pub(super) fn explore_within(
 fn raise(limits: &mut [u64], machine: &Machine, rules: &[Rule], words: &[u64], round: usize) -> bool {
     let tokens = |place| machine.packing.tokens(words, place);
     let all = round >= 8;
+    let mut most = vec![0; limits.len()];
+    for touch in rules.iter().filter(|rule| rule.iter().all(|touch| tokens(touch.place) >= touch.pre)).flatten() {
+        most[touch.place] = most[touch.place].max(tokens(touch.place).saturating_add_signed(touch.change()));
+    }
     for (place, limit) in machine.packing.unproven() {
-        let enabled = rules.iter().filter(|rule| rule.iter().all(|touch| tokens(touch.place) >= touch.pre));
-        let after = enabled.flatten().filter(|touch| touch.place == place);
-        let most = after.map(|touch| tokens(place).saturating_add_signed(touch.change())).max().unwrap_or(0);
-        if most > limit || all {
-            limits[place] = most.max(limit * 2).next_power_of_two().saturating_mul(2) - 1;
+        if most[place] > limit || all {
+            limits[place] = most[place].max(limit * 2).next_power_of_two().saturating_mul(2) - 1;
         }
     }
     limits.iter().all(|&limit| limit < MANY)
@@ -160,7 +179,8 @@ fn finish(model: &Model, rules: &[Rule], machine: Machine, shards: Vec<Shard>, e
             (Stop::Watcher("a wanted state was found".to_owned()), Some(marking(&words)))
         }
     };
-    Exploration { figures, stop, found, machine, shards: if keep { shards } else { Vec::new() } }
+    let shards = if keep { shards } else { Vec::new() };
+    Exploration { figures, stop, found, machine, shards, stretches: OnceLock::new() }
 }
 
 /// How a search ended.
@@ -260,7 +280,7 @@ impl Common {
         *before = now;
         if states > self.budget.states {
             self.stop(End::Stopped(Stop::States(self.budget.states)));
-        } else if bytes > self.budget.bytes {
+        } else if bytes > self.budget.bytes || shard.is_full() {
             self.stop(End::Stopped(Stop::Bytes(self.budget.bytes)));
         }
     }
@@ -280,7 +300,9 @@ type Watch<'a> = &'a mut (dyn FnMut(&Progress) -> Option<String> + 'a);
 
 impl<'a> Search<'a> {
     fn new(task: Task<'a>, budget: Budget) -> Self {
-        let shards: Vec<Shard> = (0..task.shards).map(|number| Shard::new(number, task.machine)).collect();
+        let shards: Vec<Shard> = (0..task.shards)
+            .map(|number| Shard::new(number, task.machine, budget.bytes / task.shards as u64))
+            .collect();
         let common = Common {
             budget,
             states: AtomicU64::new(0),
@@ -300,6 +322,10 @@ impl<'a> Search<'a> {
         self.shards[super::shard::owner(&machine.initial, self.task.shards)].receive(&root);
         let mut accounts = vec![Progress::default(); self.shards.len()];
         loop {
+            // States may have been sent to it after it was looked at.
+            if self.shards.iter().any(Shard::is_full) {
+                return End::Stopped(Stop::Bytes(self.common.budget.bytes));
+            }
             self.shards.iter_mut().for_each(|shard| shard.begin_level(self.task.keep));
             let waiting: usize = self.shards.iter().map(Shard::waiting).sum();
             if waiting == 0 {

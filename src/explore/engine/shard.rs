@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::fold::Fold;
 use super::keys::Keys;
 use super::machine::{Changes, Machine};
+use super::search::Wanted;
 use super::stubborn::{self, Stubborn};
 use super::tally::Seen;
 use super::view::View;
@@ -28,6 +29,10 @@ pub(super) struct Shard {
     pub(super) levels: Vec<usize>,
     pub(super) counts: Counts,
     pub(super) seen: Seen,
+    /// Bytes this shard may use.
+    share: u64,
+    /// Whether there was no room for a state, which is not there.
+    is_full: bool,
     scratch: Scratch,
 }
 
@@ -75,7 +80,7 @@ struct Scratch {
 pub(super) struct Task<'a> {
     pub(super) machine: &'a Machine,
     /// Ends the search at a state of which it is true.
-    pub(super) wanted: Option<&'a (dyn Fn(&View<'_>) -> bool + Sync)>,
+    pub(super) wanted: Option<&'a dyn Wanted>,
     /// What need not be fired on the way to a goal.
     pub(super) stubborn: Option<&'a Stubborn<'a>>,
     pub(super) shards: usize,
@@ -87,7 +92,8 @@ pub(super) struct Task<'a> {
 const TOGETHER: usize = 1024;
 
 impl Shard {
-    pub(super) fn new(number: usize, machine: &Machine) -> Self {
+    /// No states yet; there may be as many as `share` bytes hold.
+    pub(super) fn new(number: usize, machine: &Machine, share: u64) -> Self {
         let words = machine.packing.words();
         let fold = (words > 1).then(|| Fold::new(words));
         let halves = (8, 8);
@@ -105,6 +111,8 @@ impl Shard {
             levels: Vec::new(),
             counts: Counts::default(),
             seen: machine.meter.nothing(machine.width),
+            share,
+            is_full: false,
             scratch: Scratch {
                 set: vec![0; machine.width],
                 words: vec![0; words],
@@ -119,6 +127,16 @@ impl Shard {
     /// How many states there are.
     pub(super) fn len(&self) -> usize {
         self.seen_keys.len()
+    }
+
+    /// How many of the kept states were expanded; they are the first ones.
+    pub(super) fn expanded(&self) -> usize {
+        self.next
+    }
+
+    /// Whether there was no room for a state.
+    pub(super) fn is_full(&self) -> bool {
+        self.is_full
     }
 
     /// How many states of the present distance are not yet expanded.
@@ -209,7 +227,7 @@ impl Shard {
             if enabled == 0 {
                 self.counts.deadlock(self.levels.len(), words);
             }
-            if task.wanted.is_some_and(|wanted| wanted(&View { packing: &machine.packing, words, enabled: set })) {
+            if task.wanted.is_some_and(|wanted| wanted.is(&View { packing: &machine.packing, words, enabled: set })) {
                 halt = Some(Halt::Found(words.to_vec()));
                 break;
             }
@@ -222,6 +240,7 @@ impl Shard {
                 while word != 0 {
                     let transition = position * 64 + word.trailing_zeros() as usize;
                     word &= word - 1;
+                    debug_assert!(machine.fits(transition, words), "a digit is too small");
                     if SINGLE {
                         let after = words[0].wrapping_add(machine.change[transition]);
                         self.found_single(after, transition as u32, task, letters);
@@ -281,7 +300,15 @@ impl Shard {
 
     /// Enters the keys collected, and puts the new ones behind the states.
     fn enter(&mut self) {
+        let beside = self.bytes() - self.seen_keys.bytes();
+        self.seen_keys.grow_within(self.share.saturating_sub(beside));
         let (keys, vias) = (&mut self.scratch.keys, &mut self.scratch.vias);
+        self.is_full |= self.states.try_reserve(keys.len()).is_err() || self.vias.try_reserve(keys.len()).is_err();
+        if self.is_full {
+            keys.clear();
+            vias.clear();
+            return;
+        }
         self.counts.fired += keys.len() as u64;
         let (states, reached) = (&mut self.states, &mut self.vias);
         if let Some(fold) = &self.fold {
@@ -290,18 +317,24 @@ impl Shard {
             if left >> old.0 > 0 || right >> old.1 > 0 {
                 let bits =
                     |numbers: usize, old: u32| if numbers >> old > 0 { numbers.ilog2() + 2 } else { old }.min(32);
-                self.halves = (bits(left, old.0), bits(right, old.1));
-                let new = self.halves;
-                self.seen_keys.widen(new.0 + new.1, |key| narrow(wide(key, old), new));
+                let new = (bits(left, old.0), bits(right, old.1));
+                if self.seen_keys.widen(new.0 + new.1, |key| narrow(wide(key, old), new)) {
+                    self.halves = new;
+                } else {
+                    self.is_full = true;
+                    keys.clear();
+                    vias.clear();
+                    return;
+                }
             }
             let halves = self.halves;
             keys.iter_mut().for_each(|key| *key = narrow(*key, halves));
-            self.seen_keys.insert(keys, |at| {
+            self.is_full = !self.seen_keys.insert(keys, |at| {
                 states.push(wide(keys[at], halves));
                 reached.push(vias[at]);
             });
         } else {
-            self.seen_keys.insert(keys, |at| {
+            self.is_full = !self.seen_keys.insert(keys, |at| {
                 states.push(keys[at]);
                 reached.push(vias[at]);
             });
@@ -349,7 +382,7 @@ impl Shard {
 
     /// The key of a marking, if its parts were met before.
     pub(super) fn key(&self, words: &[u64]) -> Option<u64> {
-        self.fold.as_ref().map_or(Some(words[0]), |fold| fold.find(words).map(|key| narrow(key, self.halves)))
+        self.fold.as_ref().map_or(Some(words[0]), |fold| fold.find(words).and_then(|key| self.narrowed(key)))
     }
 
     /// The key of the marking after a firing in a marking of this shard whose nodes have these numbers, if its parts were met
@@ -364,7 +397,13 @@ impl Shard {
         let (Some(fold), Some(changes)) = (&self.fold, changes) else { return Some(words[0]) };
         room.clear();
         room.extend_from_slice(numbers);
-        fold.find_after(words, changes, room).map(|key| narrow(key, self.halves))
+        fold.find_after(words, changes, room).and_then(|key| self.narrowed(key))
+    }
+
+    /// The pair without the bits between its parts, which may have become too large for it when there was no more room.
+    fn narrowed(&self, key: u64) -> Option<u64> {
+        let narrow = narrow(key, self.halves);
+        (wide(narrow, self.halves) == key).then_some(narrow)
     }
 
     /// The key of a kept state.

@@ -14,6 +14,7 @@ impl Exploration {
         let mut arena = Vec::with_capacity(self.figures.states as usize * self.words());
         self.for_each_state(|_, view| arena.extend_from_slice(view.words));
         self.shards.clear();
+        self.stretches.take();
         arena
     }
 
@@ -42,8 +43,9 @@ impl Exploration {
         self.machine.packing.tokens(words, place)
     }
 
-    /// Fires a transition that a state enables.
-    pub(in crate::explore) fn fire(&self, transition: usize, words: &mut [u64]) {
-        self.machine.fire(transition, words);
+    /// Fires a transition that a state enables. False, and nothing done, if the packing cannot hold the marking after it.
+    #[must_use]
+    pub(in crate::explore) fn fire(&self, transition: usize, words: &mut [u64]) -> bool {
+        self.machine.fire(transition, words)
     }
 }

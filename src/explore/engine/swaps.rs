@@ -15,12 +15,16 @@ use super::model::{Rule, Touch};
 pub(super) enum Swaps {
     /// A row of bits for each transition, and one more for states that were not reached by any.
     Rows(Vec<u64>),
-    /// For each transition, those before it that are to be fired, as words of the row of bits that are not 0.
-    Lists(Vec<Box<[(u32, u64)]>>),
+    /// For each transition, those before it that are to be fired, as words of the row of bits that are not 0; nothing if all
+    /// are, because they were too many to be examined.
+    Lists(Vec<Option<Box<[(u32, u64)]>>>),
 }
 
 /// Words of all rows together beyond which there are lists: 2 MiB.
 const ROWS: usize = 1 << 18;
+
+/// Pairs of transitions that share a place, examined at most: where all share one, there are too many.
+const PAIRS: usize = 20_000_000;
 
 impl Swaps {
     /// Sets of transitions have `width` words.
@@ -30,24 +34,27 @@ impl Swaps {
             rule.iter().for_each(|touch| touching[touch.place].push(transition));
         }
         // Those that share no place with b can be swapped with it; of the others each is examined.
+        let mut left = PAIRS;
         let fired = |(b, rule): (usize, &Rule)| {
+            left = left.saturating_sub(rule.iter().map(|touch| touching[touch.place].len()).sum());
             let near = rule.iter().flat_map(|touch| &touching[touch.place]).copied().filter(|&a| a < b);
-            let mut fired: Vec<usize> = near.collect();
+            let mut fired: Vec<usize> = if left > 0 { near.collect() } else { return None };
             fired.sort_unstable();
             fired.dedup();
             fired.retain(|&a| !swappable(rule, &rules[a]));
-            fired
+            Some(fired)
         };
         let fired = rules.iter().enumerate().map(fired);
         if (rules.len() + 1) * width <= ROWS {
             let mut rows = vec![u64::MAX; (rules.len() + 1) * width];
             for ((b, fired), row) in fired.enumerate().zip(rows.chunks_exact_mut(width)) {
+                let Some(fired) = fired else { continue };
                 (0..b).for_each(|a| row[a / 64] &= !(1 << (a % 64)));
                 fired.into_iter().for_each(|a| row[a / 64] |= 1 << (a % 64));
             }
             Self::Rows(rows)
         } else {
-            Self::Lists(fired.map(|fired| words(&fired)).collect())
+            Self::Lists(fired.map(|fired| Some(words(&fired?))).collect())
         }
     }
 
@@ -60,7 +67,7 @@ impl Swaps {
                 set.iter_mut().zip(row).for_each(|(word, row)| *word &= row);
             }
             Self::Lists(lists) => {
-                if let Some(list) = lists.get(via as usize) {
+                if let Some(Some(list)) = lists.get(via as usize) {
                     restrict(list, via, set);
                 }
             }
@@ -71,7 +78,9 @@ impl Swaps {
     pub(super) fn bytes(&self) -> u64 {
         match self {
             Self::Rows(rows) => rows.capacity() as u64 * 8,
-            Self::Lists(lists) => lists.iter().map(|list| 16 + 16 * list.len() as u64).sum(),
+            Self::Lists(lists) => {
+                lists.iter().map(|list| 16 + 16 * list.as_ref().map_or(0, |list| list.len() as u64)).sum()
+            }
         }
     }
 }

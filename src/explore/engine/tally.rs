@@ -82,8 +82,8 @@ impl Meter {
             }
         }
         if !self.sums.is_empty() {
-            let total: i64 = self.sums.iter().map(|sum| sum.get(words)).sum();
-            seen.total = seen.total.max(total as u64);
+            let total: i128 = self.sums.iter().map(|sum| i128::from(sum.get(words))).sum();
+            seen.total = seen.total.max(u64::try_from(total).unwrap_or(u64::MAX));
         }
     }
 

@@ -123,7 +123,11 @@ impl Lowering<'_> {
                     let role = if inner.section == Section::Constant { Role::Constant } else { Role::Memory };
                     let span = if is_library { leaf.span } else { inner.span };
                     let value = parts.get(&position).copied().unwrap_or(&inner.initial);
+                    let first = self.variables.len();
                     self.add(&Leaf { name, role, span }, &inner.shape, value);
+                    if !matches!(inner.section, Section::Input | Section::Output) {
+                        self.internal.extend((first..self.variables.len()).map(VarId));
+                    }
                 }
             }
         }

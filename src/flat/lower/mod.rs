@@ -8,7 +8,7 @@ mod standard;
 mod statements;
 mod timers;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::narrow::{Timer, narrow};
 use super::{FlatProgram, Instruction, Line, Operand, Restriction, Target, Variable};
@@ -43,9 +43,9 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     let cycle = lowering.scan_time;
     let scan_time = has_timers.then_some(cycle);
     let name = program.pous[&program.entry].name.clone();
-    let Lowering { variables, code, restrictions, addresses, timers, .. } = lowering;
+    let Lowering { variables, code, restrictions, addresses, internal, timers, .. } = lowering;
     let mut flat =
-        FlatProgram { name, variables, code, restrictions, addresses, scan_time, cycle, presets_vary: false };
+        FlatProgram { name, variables, code, restrictions, addresses, internal, scan_time, cycle, presets_vary: false };
     narrow(&mut flat, &timers);
     flat
 }
@@ -74,6 +74,7 @@ struct Lowering<'p> {
     variables: Vec<Variable>,
     restrictions: BTreeMap<VarId, Restriction>,
     addresses: BTreeMap<String, VarId>,
+    internal: BTreeSet<VarId>,
     code: Vec<Line>,
     /// The line of each label. Until the end, a jump's target is a label.
     labels: Vec<usize>,
@@ -91,6 +92,7 @@ impl<'p> Lowering<'p> {
             variables: Vec::new(),
             restrictions: BTreeMap::new(),
             addresses: BTreeMap::new(),
+            internal: BTreeSet::new(),
             code: Vec::new(),
             labels: Vec::new(),
             buffers: Buffers::default(),

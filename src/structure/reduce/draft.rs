@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::log::Log;
 use super::{Keep, Options, Property, Rule};
@@ -40,7 +41,7 @@ pub struct Transition {
 }
 
 /// The net as the rules see it. A node keeps its number when others go; numbers are not used twice.
-pub struct Draft {
+pub struct Draft<'s> {
     pub places: Vec<Place>,
     pub transitions: Vec<Transition>,
     pub property: Property,
@@ -55,11 +56,13 @@ pub struct Draft {
     hubs: Vec<u32>,
     rules: Vec<Rule>,
     work: Cell<u64>,
+    /// Once it is set, nobody wants more rules applied.
+    stopping: &'s AtomicBool,
 }
 
-impl Draft {
+impl<'s> Draft<'s> {
     /// The draft of a net; nothing if its numbers are too large to calculate with.
-    pub fn of(net: &Net, keep: &Keep, options: &Options) -> Option<Self> {
+    pub fn of(net: &Net, keep: &Keep, options: &Options, stopping: &'s AtomicBool) -> Option<Self> {
         let transitions: Vec<Transition> = net
             .transition_ids()
             .map(|id| Transition {
@@ -89,6 +92,7 @@ impl Draft {
             applied: [0; Rule::ALL.len()],
             rules: options.rules.clone(),
             work: Cell::new(options.work),
+            stopping,
         })
     }
 
@@ -107,9 +111,9 @@ impl Draft {
         self.work.set(self.work.get().saturating_sub(work as u64));
     }
 
-    /// Whether all the work allowed has been done.
+    /// Whether all the work allowed has been done, or no more is wanted.
     pub fn is_tired(&self) -> bool {
-        self.work.get() == 0
+        self.work.get() == 0 || self.stopping.load(Ordering::Relaxed)
     }
 
     /// The places there are.

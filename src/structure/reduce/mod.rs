@@ -46,6 +46,8 @@ pub use lift::LiftError;
 pub use reduced::{Reduced, Size};
 pub use rule::Rule;
 
+use std::sync::atomic::AtomicBool;
+
 use crate::net::{Net, PlaceId, TransitionId};
 use draft::{Draft, MANY};
 
@@ -109,7 +111,15 @@ pub fn reduce<'n>(net: &'n Net, keep: &Keep) -> Reduced<'n> {
 /// Reduces a net within limits.
 #[must_use]
 pub fn reduce_with<'n>(net: &'n Net, keep: &Keep, options: &Options) -> Reduced<'n> {
-    let Some(mut draft) = Draft::of(net, keep, options) else { return Reduced::unchanged(net, keep.property) };
+    reduce_until(net, keep, options, &AtomicBool::new(false))
+}
+
+/// Reduces a net within limits, and not further once `stopping` is set.
+#[must_use]
+pub fn reduce_until<'n>(net: &'n Net, keep: &Keep, options: &Options, stopping: &AtomicBool) -> Reduced<'n> {
+    let Some(mut draft) = Draft::of(net, keep, options, stopping) else {
+        return Reduced::unchanged(net, keep.property);
+    };
     for _ in 0..options.rounds {
         let before = draft.applied;
         everywhere(&mut draft);

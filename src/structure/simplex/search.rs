@@ -1,5 +1,7 @@
 //! The dual simplex algorithm, revised: the inverse of the basis is kept as a product, rows are computed when they are needed.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::basis::Inverse;
 use super::order::triangular;
 use super::{Program, Solved, TOLERANCE, choice};
@@ -7,9 +9,9 @@ use super::{Program, Solved, TOLERANCE, choice};
 /// Columns replaced before the inverse is made anew.
 const REPLACED: usize = 64;
 
-/// Solves a program in at most so many elementary steps.
-pub fn minimise(program: &Program, steps: u64) -> Solved {
-    let mut search = Search::new(program, steps);
+/// Solves a program in at most so many elementary steps, unless `stopping` is set meanwhile.
+pub fn minimise(program: &Program, steps: u64, stopping: &AtomicBool) -> Solved {
+    let mut search = Search::new(program, steps, stopping);
     // Once more with a fresh inverse before anything is said, since errors add up.
     let mut fresh = true;
     loop {
@@ -17,7 +19,7 @@ pub fn minimise(program: &Program, steps: u64) -> Solved {
             search.refactor();
             fresh = true;
         }
-        if search.steps == 0 {
+        if search.is_over(0) {
             return Solved::GaveUp;
         }
         let Some(row) = choice::row(&search.values, &search.lengths) else {
@@ -72,10 +74,11 @@ struct Search<'p> {
     touched: Vec<usize>,
     /// Elementary steps left.
     steps: u64,
+    stopping: &'p AtomicBool,
 }
 
 impl<'p> Search<'p> {
-    fn new(program: &'p Program, steps: u64) -> Self {
+    fn new(program: &'p Program, steps: u64, stopping: &'p AtomicBool) -> Self {
         let (rows, variables) = (program.rows.len(), program.costs.len());
         let mut columns = vec![Vec::new(); variables];
         for (row, entries) in program.rows.iter().enumerate() {
@@ -99,11 +102,17 @@ impl<'p> Search<'p> {
             entries: vec![0.0; variables + rows],
             touched: Vec::new(),
             steps,
+            stopping,
         }
     }
 
     fn variables(&self) -> usize {
         self.program.costs.len()
+    }
+
+    /// Whether no steps are left once so many more are spent, or none are wanted.
+    fn is_over(&self, spent: usize) -> bool {
+        self.steps <= spent as u64 || self.stopping.load(Ordering::Relaxed)
     }
 
     fn spend(&mut self, steps: usize) {
@@ -186,7 +195,8 @@ impl<'p> Search<'p> {
         true
     }
 
-    /// Makes the inverse anew from the basis, and computes all values from it. A column that depends on others leaves.
+    /// Makes the inverse anew from the basis, and computes all values from it. A column that depends on others leaves. If that
+    /// takes more steps than are left, none are left, and nothing can be read from the search any more.
     fn refactor(&mut self) {
         let variables = self.variables();
         let mut length_of = vec![1.0; self.is_basic.len()];
@@ -202,6 +212,10 @@ impl<'p> Search<'p> {
         let mut touched: Vec<u32> = Vec::new();
         for (variable, row) in order.into_iter().map(|(position, row)| (entering[position], row)) {
             touched.clear();
+            if self.is_over(spent) {
+                self.steps = 0;
+                return;
+            }
             for &(i, entry) in &self.columns[variable] {
                 column[i as usize] = entry;
                 touched.push(i);

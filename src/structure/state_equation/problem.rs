@@ -1,5 +1,7 @@
 //! The state equation as a linear program.
 
+use std::sync::atomic::AtomicBool;
+
 use super::{Bound, Certificate, Constraint, Relation};
 use crate::net::{Net, PlaceId};
 use crate::structure::incidence::Incidence;
@@ -35,6 +37,12 @@ impl<'n> Problem<'n> {
     /// so many elementary steps, some nanoseconds each.
     #[must_use]
     pub fn solve(&self, constraints: &[Constraint], steps: u64) -> Outcome {
+        self.solve_until(constraints, steps, &AtomicBool::new(false))
+    }
+
+    /// As [`Self::solve`]. Unknown if `stopping` is set meanwhile.
+    #[must_use]
+    pub fn solve_until(&self, constraints: &[Constraint], steps: u64, stopping: &AtomicBool) -> Outcome {
         let mut program = self.program();
         // Of each row behind those of the places, the constraint it is about and its sign.
         let mut origins: Vec<(usize, i128)> = Vec::new();
@@ -51,7 +59,7 @@ impl<'n> Problem<'n> {
                 origins.push((position, sign));
             }
         }
-        match minimise(&program, steps) {
+        match minimise(&program, steps, stopping) {
             Solved::Optimal(firings) => Outcome::Feasible(firings),
             Solved::GaveUp => Outcome::Unknown,
             Solved::Infeasible(times) => {
@@ -82,7 +90,7 @@ impl<'n> Problem<'n> {
             least,
             costs: self.net.places().map(|place| place.tokens).enumerate().map(cost).collect(),
         };
-        let Solved::Optimal(more) = minimise(&program, steps) else { return None };
+        let Solved::Optimal(more) = minimise(&program, steps, &AtomicBool::new(false)) else { return None };
         let (mut weights, unit) = whole(&more)?;
         places.iter().for_each(|place| weights[place.index()] += unit);
         let weights = self.net.place_ids().zip(weights).filter(|&(_, weight)| weight != 0).collect();

@@ -14,8 +14,9 @@ use serde::{Deserialize, Serialize};
 pub use fingerprint::fingerprint;
 
 use super::assumptions::assumptions;
-use super::check::{answers, asked, check};
+use super::check::{answer, answers, asked, check_aloud};
 use super::coverage::coverage;
+use super::news::{InOrder, News, Tell};
 use super::{Answer, Exploration, Options, Outcome, Remark, Report, asserted};
 use crate::explore::Progress;
 use crate::logic::{Demand, Requirement, View};
@@ -54,6 +55,20 @@ pub fn check_knowing(
     known: Option<&Known>,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> (Report, Option<Known>) {
+    check_knowing_aloud(system, requirements, options, known, watch, None)
+}
+
+/// As [`check_knowing()`]; `tell` hears of what was explored and of each answer, as with [`check_aloud()`]. It hears nothing if
+/// nothing is explored.
+#[must_use]
+pub fn check_knowing_aloud(
+    system: &System,
+    requirements: &[(Requirement, Demand)],
+    options: &Options,
+    known: Option<&Known>,
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    tell: Option<Tell<'_>>,
+) -> (Report, Option<Known>) {
     let demands: Vec<String> = requirements.iter().map(|(_, demand)| of_demand(demand)).collect();
     // Which runs are left out as unfair is told of all requirements together: then all are known, or none.
     let together = !options.fairness.is_empty();
@@ -71,11 +86,34 @@ pub fn check_knowing(
         return (known.report(system, requirements, options, recalled.into_iter().flatten().collect()), None);
     }
     let mut was_stopped = false;
-    let found = check(system, &missing, options, &mut |progress| {
+    let mut watch = |progress: &Progress| {
         let reason = watch(progress);
         was_stopped |= reason.is_some();
         reason
-    });
+    };
+    let told = InOrder::new(tell);
+    let positions = |is_known: bool| (0..).zip(&recalled).filter(move |(_, outcome)| outcome.is_some() == is_known);
+    let tell_all = |news: News<'_>| match news {
+        News::Explored(found) => {
+            told.begin(|| {
+                let own = assumptions(system, options, is_timed(requirements)).into_iter();
+                let assumptions = own.chain(found_assumptions(system, options, &missing, found)).collect();
+                Report { assumptions, ..found.clone() }
+            });
+            for (position, outcome) in positions(true) {
+                let outcome = outcome.clone().unwrap_or_else(Outcome::holds);
+                let answer = || answer(system, &requirements[position], options, outcome);
+                told.put(position, || Answer { recalled: true, ..answer() });
+            }
+        }
+        News::Answered(among_missing, answer) => {
+            if let Some((position, _)) = positions(false).nth(among_missing) {
+                told.put(position, || answer.clone());
+            }
+        }
+    };
+    let tell_all: Option<Tell<'_>> = tell.is_some().then_some(&tell_all);
+    let found = check_aloud(system, &missing, options, &mut watch, tell_all);
     let mut now = Known::new(system, &missing, options, &found);
     now.asked = demands;
     let of_missing = found.answers.into_iter().map(|answer| answer.outcome).take(missing.len());
@@ -100,13 +138,12 @@ pub fn check_knowing(
 impl Known {
     /// What a report says of these requirements.
     fn new(system: &System, requirements: &[(Requirement, Demand)], options: &Options, report: &Report) -> Self {
-        let told = assumptions(system, options, is_timed(requirements));
         let outcome = |answer: &Answer| answer.outcome.clone();
         let (asked, asserted) = report.answers.split_at(requirements.len());
         let demands: Vec<String> = requirements.iter().map(|(_, demand)| of_demand(demand)).collect();
         Self {
             exploration: report.exploration.clone(),
-            found_assumptions: report.assumptions.iter().filter(|found| !told.contains(found)).cloned().collect(),
+            found_assumptions: found_assumptions(system, options, requirements, report),
             asserted: asserted.iter().map(outcome).collect(),
             checks: report.checks.clone(),
             remarks: report.remarks.clone(),
@@ -162,6 +199,17 @@ impl Known {
             coverage: scans.then(|| coverage(system, asked(requirements, options), self.never_executed.clone())),
         }
     }
+}
+
+/// What a report assumes that only the search tells.
+fn found_assumptions(
+    system: &System,
+    options: &Options,
+    requirements: &[(Requirement, Demand)],
+    report: &Report,
+) -> Vec<String> {
+    let known = assumptions(system, options, is_timed(requirements));
+    report.assumptions.iter().filter(|found| !known.contains(found)).cloned().collect()
 }
 
 /// Whether some requirement speaks of times.

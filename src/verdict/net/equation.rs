@@ -1,5 +1,7 @@
 //! Goals that the state equation excludes.
 
+use std::sync::atomic::AtomicBool;
+
 use crate::explore::Goal;
 use crate::net::{Net, PlaceId, TransitionId};
 use crate::structure::state_equation::{Constraint, Outcome, Problem, Relation};
@@ -9,8 +11,10 @@ const PROGRAMS: usize = 40;
 
 /// Whether no marking that the state equation allows has the goal, as far as that can be told in about so many steps. Whatever
 /// is not linear is left out, which only makes the goal easier to reach.
-pub(super) fn is_impossible(problem: &Problem<'_>, net: &Net, goal: &Goal, steps: u64) -> bool {
-    let mut work = Work { problem, net, programs: PROGRAMS, steps: steps / PROGRAMS as u64 * 4 };
+///
+/// Once `stopping` is set, nothing more is excluded.
+pub(super) fn is_impossible(problem: &Problem<'_>, net: &Net, goal: &Goal, steps: u64, stopping: &AtomicBool) -> bool {
+    let mut work = Work { problem, net, programs: PROGRAMS, steps: steps / PROGRAMS as u64 * 4, stopping };
     work.excludes(vec![goal], Vec::new(), Vec::new())
 }
 
@@ -19,6 +23,7 @@ struct Work<'a> {
     net: &'a Net,
     programs: usize,
     steps: u64,
+    stopping: &'a AtomicBool,
 }
 
 impl Work<'_> {
@@ -52,7 +57,7 @@ impl Work<'_> {
         if !constraints.is_empty() {
             let Some(left) = self.programs.checked_sub(1) else { return false };
             self.programs = left;
-            match self.problem.solve(&constraints, self.steps) {
+            match self.problem.solve_until(&constraints, self.steps, self.stopping) {
                 Outcome::Infeasible(_) => return true,
                 Outcome::Feasible(_) => {}
                 Outcome::Unknown => return false,

@@ -1,14 +1,14 @@
 //! What is looked for in each state while a net is explored.
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::aim::aim;
 use super::replay::{Played, last_marking, refuted, way};
 use super::{Examination, Means, Question, Reply, Run};
 use crate::explore;
-use crate::explore::engine::{Exploration, Model, Options, View};
+use crate::explore::engine::{Exploration, Model, Options, View, Wanted};
 use crate::explore::{Progress, Stop};
 use crate::logic::{Bound, Quantifier, Valuation};
 use crate::net::{Net, PlaceId, Tokens, TransitionId};
@@ -32,7 +32,8 @@ pub(super) struct Goal<'q> {
     pub(super) formula: &'q Bound,
     /// Whether the question is `EF`.
     pub(super) is_existential: bool,
-    found: OnceLock<Vec<u64>>,
+    is_found: AtomicBool,
+    found: Mutex<Option<Vec<u64>>>,
 }
 
 /// The most tokens that places hold together.
@@ -48,13 +49,22 @@ pub(super) fn search(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
 ) -> Exploration {
-    let may_stop = hunts.iter().all(|hunt| matches!(hunt, Hunt::Goal(_)));
-    let wanted = |view: &View<'_>| {
-        hunts.iter().for_each(|hunt| hunt.look(view));
-        may_stop && hunts.iter().all(|hunt| hunt.is_over())
-    };
     let options = Options { keep: true, ..*options };
-    explore::engine::explore(model, &options, watch, Some(&wanted))
+    explore::engine::explore(model, &options, watch, Some(&Hunts(hunts)))
+}
+
+/// All that is looked for at a time. The search may end when each of them is a goal, and found.
+struct Hunts<'h, 'q>(&'h [&'h Hunt<'q>]);
+
+impl Wanted for Hunts<'_, '_> {
+    fn is(&self, view: &View<'_>) -> bool {
+        self.0.iter().for_each(|hunt| hunt.look(view));
+        self.0.iter().all(|hunt| hunt.is_over())
+    }
+
+    fn forget(&self) {
+        self.0.iter().for_each(|hunt| hunt.forget());
+    }
 }
 
 impl<'q> Hunt<'q> {
@@ -68,7 +78,7 @@ impl<'q> Hunt<'q> {
 
     /// For a formula as a whole.
     pub(super) fn of_formula(formula: &'q Bound) -> Self {
-        let goal = |formula, is_existential| Self::Goal(Goal { formula, is_existential, found: OnceLock::new() });
+        let goal = |formula, is_existential| Self::Goal(Goal::of(formula, is_existential));
         match formula {
             Bound::Until { quantifier: Quantifier::Some, weak: false, hold, release }
                 if **hold == Bound::Truth(true) && release.is_state_formula() =>
@@ -137,28 +147,55 @@ impl<'q> Hunt<'q> {
     pub(super) fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         match self {
             Self::Whole(examination) => examination.reply(net, exploration),
-            Self::Goal(goal) if goal.found.get().is_some() => goal.reply(net, exploration),
+            Self::Goal(goal) if goal.is_found() => goal.reply(net, exploration),
             _ if exploration.stop == Stop::Complete => self.absent(),
             _ => None,
         }
     }
 
     fn is_over(&self) -> bool {
-        matches!(self, Self::Goal(goal) if goal.found.get().is_some())
+        matches!(self, Self::Goal(goal) if goal.is_found())
+    }
+
+    /// Forgets a state that will not be kept. The most tokens seen were seen all the same.
+    fn forget(&self) {
+        if let Self::Goal(goal) = self {
+            goal.forget();
+        }
     }
 }
 
-impl Goal<'_> {
+impl<'q> Goal<'q> {
+    fn of(formula: &'q Bound, is_existential: bool) -> Self {
+        Self { formula, is_existential, is_found: AtomicBool::new(false), found: Mutex::new(None) }
+    }
+
+    fn is_found(&self) -> bool {
+        self.is_found.load(Ordering::Acquire)
+    }
+
     fn look(&self, view: &View<'_>) {
-        if self.found.get().is_none() && self.formula.holds_in(&Seen(view)) == Some(self.is_existential) {
-            let _ = self.found.set(view.marking());
+        if !self.is_found()
+            && self.formula.holds_in(&Seen(view)) == Some(self.is_existential)
+            && let Ok(mut found) = self.found.lock()
+        {
+            found.get_or_insert_with(|| view.marking());
+            self.is_found.store(true, Ordering::Release);
+        }
+    }
+
+    fn forget(&self) {
+        if let Ok(mut found) = self.found.lock() {
+            *found = None;
+            self.is_found.store(false, Ordering::Release);
         }
     }
 
     /// The reply that the state found gives, if one was.
     fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         let shown = |(firings, last): (Vec<TransitionId>, Tokens)| self.shown_by(net, firings, &last, true);
-        Some(way(net, exploration, self.found.get()?).map_or_else(|what| refuted(&what), shown))
+        let found = self.found.lock().ok()?.clone()?;
+        Some(way(net, exploration, &found).map_or_else(|what| refuted(&what), shown))
     }
 
     /// The reply that a run to a marking gives.

@@ -8,7 +8,7 @@ use fixedbitset::FixedBitSet;
 use super::Reply;
 use super::examination::{dead_for_ever, shown_at};
 use super::paths::Paths;
-use crate::explore::{Stop, components};
+use crate::explore::{Stop, components_until};
 use crate::logic::{Valuation, leading_to};
 use crate::net::TransitionId;
 
@@ -23,46 +23,34 @@ pub(super) fn live(paths: &Paths<'_>, stopping: &AtomicBool) -> Option<Reply> {
     if stopping.load(Ordering::Relaxed) {
         return None;
     }
-    let components = components(graph, &others);
+    let components = components_until(graph, &others, stopping)?;
     let mut is_left = FixedBitSet::with_capacity(components.count);
     for state in others.ones().map(|state| state as u32) {
         let own = components.of[state as usize];
-        // The state that stands for the unknown ones has no steps, and tells nothing.
+        // A state that was not expanded, and the one that stands for the unknown ones, tell nothing.
         let leads_on = graph.successors(state).iter().any(|&next| components.of[next as usize] != own);
         is_left.set(own as usize, is_left.contains(own as usize) || leads_on || graph.row_of(state).is_none());
     }
     if stopping.load(Ordering::Relaxed) {
         return None;
     }
-    // The transitions of the components that are not left, numbered by how many such there are before them.
-    let mut numbers = vec![0; components.count];
-    let mut count = 0;
-    for component in is_left.zeroes() {
-        numbers[component] = count;
-        count += 1;
-    }
-    let transitions = net.transitions().len();
-    let mut fired = FixedBitSet::with_capacity(count * transitions);
-    let number = |state: u32| {
-        let component = components.of[state as usize] as usize;
-        (others.contains(state as usize) && !is_left.contains(component)).then(|| numbers[component])
-    };
-    exploration.for_each_state(|state, view| {
-        if let Some(number) = number(state) {
-            view.enabled().for_each(|transition| fired.insert(number * transitions + transition));
+    // The components that are not left, in the order of their nearest states.
+    let mut number_of = vec![None; components.count];
+    let mut nearest = Vec::new();
+    for state in others.ones() {
+        let component = components.of[state] as usize;
+        if !is_left.contains(component) && number_of[component].is_none() {
+            number_of[component] = Some(nearest.len());
+            nearest.push(state as u32);
         }
-    });
-    let lost = |state: u32| -> Vec<usize> {
-        let row = number(state).map(|number| number * transitions);
-        row.map(|row| (0..transitions).filter(|t| !fired.contains(row + t)).collect()).unwrap_or_default()
+    }
+    let number = |state: u32| number_of.get(components.of[state as usize] as usize).copied().flatten();
+    let transitions = net.transitions().len();
+    let Some((component, lost)) = exploration.first_lacking(nearest.len(), &number, transitions, stopping)? else {
+        return (*graph.stop() == Stop::Complete).then_some(Reply::Holds(None));
     };
-    let is_full: Vec<bool> =
-        (0..count).map(|n| fired.count_ones(n * transitions..(n + 1) * transitions) == transitions).collect();
-    let state =
-        others.ones().map(|state| state as u32).find(|&state| number(state).is_some_and(|number| !is_full[number]));
-    let Some(state) = state else { return (*graph.stop() == Stop::Complete).then_some(Reply::Holds(None)) };
-    let lost: Vec<TransitionId> = lost(state).into_iter().map(TransitionId::at).collect();
-    let marking = exploration.marking(state)?;
+    let lost: Vec<TransitionId> = lost.into_iter().map(TransitionId::at).collect();
+    let marking = exploration.marking(nearest[component])?;
     let claims = lost.iter().copied().map(dead_for_ever).collect();
     Some(shown_at(net, exploration, &marking, claims, |played| lost.iter().all(|&t| !played.is_enabled(t))))
 }

@@ -18,7 +18,6 @@ mod replay;
 mod split;
 mod target;
 mod think;
-mod watched;
 
 pub use self::examination::Examination;
 use self::hunt::{Hunt, search};
@@ -27,9 +26,8 @@ pub use self::means::Means;
 use self::paths::Paths;
 use self::split::Split;
 use self::think::Thinker;
-use self::watched::watched;
 use crate::explore::engine::{Exploration, Figures, Model, Options};
-use crate::explore::{Budget, Progress, Stop};
+use crate::explore::{Budget, Progress, Stop, watched};
 use crate::logic::Bound;
 use crate::net::{Net, PlaceId, TransitionId};
 
@@ -182,12 +180,7 @@ fn answers(
         open.into_iter().for_each(|at| replies[at] = Some(Reply::Unknown(reason.clone())));
         return (replies, None);
     }
-    let progress = Progress {
-        states: exploration.figures.states,
-        expanded: exploration.figures.states,
-        depth: exploration.figures.depth,
-        bytes,
-    };
+    let progress = Progress { bytes, ..exploration.progress() };
     let (found, reason) = watched(watch, &progress, |stopping| {
         let wanted: Vec<&Hunt<'_>> = open.iter().map(|&at| hunts[at]).collect();
         Paths::of(net, exploration, stopping).map(|paths| paths.replies(&wanted, stopping))

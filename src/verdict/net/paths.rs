@@ -28,7 +28,7 @@ impl<'e> Paths<'e> {
     /// The graph; nothing if `stopping` is set meanwhile, or there are too many states.
     pub(super) fn of(net: &'e Net, exploration: &'e Exploration, stopping: &AtomicBool) -> Option<Self> {
         let (starts, targets) = exploration.steps(stopping)?.into_parts();
-        let graph = Graph::of_rows(starts, targets, exploration.stop.clone());
+        let graph = Graph::of_rows(exploration.kept(), starts, targets, exploration.stop.clone());
         Some(Self { net, exploration, graph })
     }
 

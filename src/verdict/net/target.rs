@@ -1,10 +1,12 @@
 //! A net reduced for one goal, and the goal there.
 
+use std::sync::atomic::AtomicBool;
+
 use super::Means;
 use crate::explore::Goal;
 use crate::explore::engine::Model;
 use crate::net::{Net, PlaceId, TransitionId};
-use crate::structure::reduce::{Keep, Property, Reduced, reduce};
+use crate::structure::reduce::{Keep, Options, Property, Reduced, reduce_until};
 
 /// Where a goal is searched for.
 pub(super) struct Target<'n> {
@@ -14,13 +16,13 @@ pub(super) struct Target<'n> {
 }
 
 impl<'n> Target<'n> {
-    /// The net reduced as far as the goal allows.
-    pub(super) fn of(net: &'n Net, goal: &Goal) -> Self {
+    /// The net reduced as far as the goal allows, or until `stopping` is set.
+    pub(super) fn of(net: &'n Net, goal: &Goal, stopping: &AtomicBool) -> Self {
         let mut keep = Keep::nothing(Property::Reachability);
         if !see(goal, &mut keep) {
             return Self::unreduced(net);
         }
-        let reduced = reduce(net, &keep);
+        let reduced = reduce_until(net, &keep, &Options::default(), stopping);
         let model = Model::from(&reduced.net);
         Self { net, reduced: Some((reduced, model)) }
     }

@@ -1,12 +1,14 @@
 //! Goals in nets too large to explore at once: what walks find, what the state equation excludes, and what searches for one goal
 //! at a time, in nets reduced for it, find or exclude.
 
+use std::sync::atomic::AtomicBool;
+
 use super::equation::is_impossible;
 use super::hunt::Hunt;
 use super::target::Target;
 use super::{Means, Reply, Watch};
 use crate::explore::engine::{Model, Options, explore_towards};
-use crate::explore::{Budget, Goal, Progress, Stop, Walk, without_loops};
+use crate::explore::{Budget, Goal, Progress, Stop, Walk, watched, without_loops};
 use crate::net::{Net, TransitionId};
 use crate::structure::state_equation::Problem;
 
@@ -78,10 +80,10 @@ impl<'n, 'h> Thinker<'n, 'h> {
             self.walk(None, WALKED, watch, note)?;
             let problem = Problem::new(self.net);
             for case in self.cases.iter_mut().filter(|case| case.is_open) {
-                if is_impossible(&problem, self.net, &case.aim, STEPS) {
+                let (net, aim) = (self.net, &case.aim);
+                if patiently(watch, |stopping| is_impossible(&problem, net, aim, STEPS, stopping))? {
                     case.settle(case.hunt.absent(), Means::StateEquation, note);
                 }
-                look(watch)?;
             }
             for position in 0..self.cases.len() {
                 self.walk(Some(position), WALKED_FOR_ONE, watch, note)?;
@@ -167,7 +169,10 @@ impl<'n> Case<'n, '_> {
         note: Note<'_>,
     ) -> Result<(), String> {
         while self.is_open {
-            let target = self.target.get_or_insert_with(|| Target::of(net, &self.aim));
+            if self.target.is_none() {
+                self.target = Some(patiently(watch, |stopping| Target::of(net, &self.aim, stopping))?);
+            }
+            let Some(target) = &self.target else { return Ok(()) };
             let by = target.means();
             let exploration = explore_towards(target.model(model), options, watch, &target.goal(&self.aim));
             if let Some(found) = &exploration.found {
@@ -194,6 +199,15 @@ fn size(goal: &Goal) -> usize {
         Goal::All(parts) | Goal::Any(parts) => parts.iter().map(size).sum(),
         Goal::AtLeast { terms, .. } => terms.len(),
         _ => 1,
+    }
+}
+
+/// Does some work, unless `watch` gives a reason to stop, which is returned.
+fn patiently<T: Send>(watch: Watch<'_>, work: impl FnOnce(&AtomicBool) -> T + Send) -> Result<T, String> {
+    match watched(watch, &Progress::default(), work) {
+        (_, Some(reason)) => Err(reason),
+        (Some(done), None) => Ok(done),
+        (None, None) => Err("the work was not done, which is an error".to_owned()),
     }
 }
 

@@ -2,9 +2,12 @@
 
 mod candidates;
 mod decisive;
+mod error;
 mod repair;
 mod rerun;
 mod wanted;
+
+pub use error::of_error;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -312,7 +312,7 @@ fn one_run_shows(quantifier: Quantifier, value: bool) -> bool {
 }
 
 /// "a", "a and b", "a, b and c".
-fn enumerated(parts: &[String]) -> String {
+pub(super) fn enumerated(parts: &[String]) -> String {
     match parts {
         [] => String::new(),
         [one] => one.clone(),

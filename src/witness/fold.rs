@@ -1,0 +1,170 @@
+//! Long runs shortened: stretches in which nothing happens but that clocks and counters go on.
+
+use std::collections::BTreeSet;
+
+use super::scan_trace::ScanTrace;
+use crate::flat::FlatProgram;
+use crate::semantics::{Role, VarId};
+
+/// Scans that a fold hides at least.
+const LEAST: usize = 8;
+
+/// Longest pattern of scans that is recognised as one that comes again and again.
+const LONGEST_PERIOD: usize = 4;
+
+/// A part of a run as it is shown. Scans are positions in the run, from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Piece {
+    /// A scan that is shown.
+    Scan(usize),
+    /// Scans that are told in one line.
+    Fold(Fold),
+}
+
+/// A stretch of scans that repeat the scans before it, but for numbers that go on in equal steps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fold {
+    /// First scan of the stretch.
+    pub first: usize,
+    /// Last scan of the stretch.
+    pub last: usize,
+    /// Number of scans after which the pattern comes again; 1 if all are alike.
+    pub period: usize,
+    /// Numbers that go on, in the order of the columns.
+    pub moved: Vec<Moved>,
+    /// Variables that take turns through some values, with the values of the first scans of the stretch, one for each scan of a period.
+    pub turns: Vec<(VarId, Vec<u64>)>,
+}
+
+/// A number that goes on during a stretch. Values are patterns of its type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Moved {
+    /// The variable.
+    pub variable: VarId,
+    /// Value before the stretch.
+    pub from: u64,
+    /// Value at its end.
+    pub to: u64,
+}
+
+impl Fold {
+    /// Number of scans in the stretch.
+    #[must_use]
+    pub fn scans(&self) -> usize {
+        self.last - self.first + 1
+    }
+
+    /// Number of scans, in words: "498 scans", "996 scans, every 2 alike".
+    #[must_use]
+    pub fn title(&self) -> String {
+        match self.period {
+            1 => format!("{} scans", self.scans()),
+            period => format!("{} scans, every {period} alike", self.scans()),
+        }
+    }
+
+    /// The values that moved, each in words: "n 1 → 499", "Pulse 0, 1 in turn".
+    #[must_use]
+    pub fn movements(&self, program: &FlatProgram, arrow: &str) -> Vec<String> {
+        let moved = self.moved.iter().map(|&Moved { variable, from, to }| {
+            let value = |pattern| program.value_text(variable, pattern);
+            format!("{} {} {arrow} {}", program.variable(variable).name, value(from), value(to))
+        });
+        let turns = self.turns.iter().map(|(variable, values)| {
+            let values: Vec<String> = values.iter().map(|&value| program.value_text(*variable, value)).collect();
+            format!("{} {} in turn", program.variable(*variable).name, values.join(", "))
+        });
+        moved.chain(turns).collect()
+    }
+}
+
+/// The pieces of a run of which these variables are shown. `kept` are scans that are shown in any case, as are the first and the
+/// last one, those that meet an error, and the one to which a lasso leads back.
+///
+/// A scan continues a stretch of period *p* if each input and truth value is that of *p* scans before, each number of the program
+/// has made the step it made *p* scans before, and the plant the moves it made then.
+#[must_use]
+pub fn fold(program: &FlatProgram, trace: &ScanTrace, shown: &[VarId], kept: &BTreeSet<usize>) -> Vec<Piece> {
+    let folding = Folding { program, trace, shown, kept };
+    let count = trace.scans.len();
+    let mut pieces = Vec::new();
+    let mut at = 0;
+    while at < count {
+        let stretch = (1..=LONGEST_PERIOD).find_map(|period| {
+            let end = (at..count).find(|&scan| !folding.continues(scan, period)).unwrap_or(count);
+            (end - at >= LEAST).then(|| folding.fold(at, end - 1, period))
+        });
+        match stretch {
+            Some(fold) => {
+                at = fold.last + 1;
+                pieces.push(Piece::Fold(fold));
+            }
+            None => {
+                pieces.push(Piece::Scan(at));
+                at += 1;
+            }
+        }
+    }
+    pieces
+}
+
+struct Folding<'a> {
+    program: &'a FlatProgram,
+    trace: &'a ScanTrace,
+    shown: &'a [VarId],
+    kept: &'a BTreeSet<usize>,
+}
+
+impl Folding<'_> {
+    /// The value after so many scans.
+    fn value(&self, scans: usize, variable: VarId) -> Option<u64> {
+        match scans.checked_sub(1) {
+            None => Some(self.program.variable(variable).initial),
+            Some(scan) => Some(self.trace.scans.get(scan)?.end.as_ref()?.memory[variable.0]),
+        }
+    }
+
+    fn continues(&self, scan: usize, period: usize) -> bool {
+        let scans = &self.trace.scans;
+        let is_shown = scan + 1 == scans.len()
+            || self.trace.loop_start == Some(scan)
+            || scans[scan].hazard.is_some()
+            || self.kept.contains(&scan);
+        !is_shown
+            && scan >= period
+            && scans[scan].moves == scans[scan - period].moves
+            && self.shown.iter().all(|&variable| self.repeats(scan, period, variable) == Some(true))
+    }
+
+    fn repeats(&self, scan: usize, period: usize, variable: VarId) -> Option<bool> {
+        let now = self.value(scan + 1, variable)?;
+        let then = self.value(scan + 1 - period, variable)?;
+        if !self.may_go_on(variable) {
+            return Some(now == then);
+        }
+        let number = |pattern| self.program.variable(variable).ty.number(pattern);
+        let (before_now, before_then) = (self.value(scan, variable)?, self.value(scan - period, variable)?);
+        Some(number(now) - number(before_now) == number(then) - number(before_then))
+    }
+
+    /// Whether a variable is a number that the program computes.
+    fn may_go_on(&self, variable: VarId) -> bool {
+        let variable = self.program.variable(variable);
+        variable.role != Role::Input && !variable.ty.is_bool()
+    }
+
+    fn fold(&self, first: usize, last: usize, period: usize) -> Fold {
+        let (mut moved, mut turns) = (Vec::new(), Vec::new());
+        for &variable in self.shown {
+            let values: Vec<u64> = (first..first + period).filter_map(|scan| self.value(scan + 1, variable)).collect();
+            let (from, to) = (self.value(first, variable), self.value(last + 1, variable));
+            // A number that is another one after a period goes on.
+            if let (Some(from), Some(to), true) = (from, to, values.last() != from.as_ref()) {
+                moved.push(Moved { variable, from, to });
+            } else if values.windows(2).any(|pair| pair[0] != pair[1]) {
+                turns.push((variable, values));
+            }
+        }
+        Fold { first, last, period, moved, turns }
+    }
+}
