@@ -44,6 +44,7 @@ pub mod flat;
 pub mod interpret;
 pub mod logic;
 pub mod net;
+pub mod printable;
 mod rows;
 pub mod semantics;
 pub mod sif;

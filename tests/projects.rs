@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use support::document::replay;
-use support::process::{Run, petril, run};
+use support::process::{KEY, Run, petril, run};
 use tempfile::TempDir;
 
 /// What `petril init` writes.
@@ -173,7 +173,7 @@ fn another_petril_knows_nothing() {
         #[cfg(unix)]
         fs::set_permissions(&other, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
         let mut command = Command::new(&other);
-        command.args(["check", "--json"]).current_dir(folder.path());
+        command.args(["check", "--json"]).current_dir(folder.path()).env("PETRIL_CACHE_KEY", KEY);
         requirements(&json(&run(command)))
     };
     assert!(all_known(&with(&bytes)));
@@ -210,15 +210,123 @@ fn a_spoilt_file_is_as_if_it_were_not_there() {
     assert_eq!(petril(folder.path(), &["check", "--json"]).stdout, right.stdout, "nothing can be written");
 }
 
-/// Changes what is known, as somebody would who knows how it is written.
-fn tamper(file: &Path, change: impl Fn(&mut Value)) {
+/// Changes what is known, as somebody would who knows how it is written; `sign` makes the code of a text.
+fn forge(file: &Path, change: impl Fn(&mut Value), sign: impl Fn(&str) -> blake3::Hash) {
     let text = fs::read_to_string(file).unwrap();
     let (head, body) = text.split_once('\n').unwrap();
     let mut known: Value = serde_json::from_str(body).unwrap();
     change(&mut known);
-    let body = known.to_string();
     let (head, _) = head.rsplit_once(' ').unwrap();
-    fs::write(file, format!("{head} {}\n{body}", blake3::hash(body.as_bytes()))).unwrap();
+    fs::write(file, format!("{head} {}\n{known}", sign(&format!("{head}\n{known}")))).unwrap();
+}
+
+/// The code that whoever has a secret signs a text with.
+fn signed(secret: &str, text: &str) -> blake3::Hash {
+    let key = blake3::derive_key("petril 2026 what is known from earlier runs", secret.as_bytes());
+    blake3::keyed_hash(&key, text.as_bytes())
+}
+
+/// Changes what is known, as somebody would who has the key.
+fn tamper(file: &Path, change: impl Fn(&mut Value)) {
+    forge(file, change, |text| signed(KEY, text));
+}
+
+/// Everything holds, and nothing shows it.
+fn all_hold(known: &mut Value) {
+    let holds = serde_json::json!({ "Holds": { "vacuous": null, "witness": null, "example": null } });
+    known["outcomes"].as_object_mut().unwrap().values_mut().for_each(|outcome| *outcome = holds.clone());
+}
+
+#[test]
+fn what_is_forged_without_the_key_is_found_anew() {
+    let signatures: [fn(&str) -> blake3::Hash; 3] = [
+        |text| blake3::hash(text.as_bytes()),
+        |text| blake3::hash(text.split_once('\n').unwrap().1.as_bytes()),
+        |text| signed("the key of somebody else", text),
+    ];
+    for sign in signatures {
+        let folder = example();
+        let right = petril(folder.path(), &["check", "--json"]);
+        let file = kept(&folder.path().join(".petril-cache")).remove(0);
+        forge(&file, all_hold, sign);
+        let again = petril(folder.path(), &["check", "--json"]);
+        assert_eq!((again.code, &again.stdout), (1, &right.stdout));
+    }
+    // Whoever has the key is believed: this is what the key is for.
+    let folder = example();
+    check(folder.path());
+    tamper(&kept(&folder.path().join(".petril-cache")).remove(0), all_hold);
+    let again = petril(folder.path(), &["check", "--json"]);
+    assert!(again.code == 0 && all_known(&requirements(&json(&again))));
+}
+
+#[test]
+fn what_is_known_of_one_program_is_not_known_of_another() {
+    let folder = example();
+    check(folder.path());
+    let cache = folder.path().join(".petril-cache");
+    let of_first = kept(&cache).remove(0);
+    let (name, text) = (of_first.file_name().unwrap().to_owned(), fs::read_to_string(&of_first).unwrap());
+    fs::remove_file(&of_first).unwrap();
+    mend(folder.path());
+    check(folder.path());
+    let of_mended = kept(&cache).remove(0);
+    assert_ne!(of_mended.file_name().unwrap(), name);
+    // The signed text of the faulty program in the place of that of the mended one, and with its name in it.
+    let other = fs::read_to_string(&of_mended).unwrap();
+    fs::write(&of_mended, &text).unwrap();
+    assert!(none_known(&check(folder.path())));
+    fs::write(&of_mended, format!("{}\n{}", other.split_once('\n').unwrap().0, text.split_once('\n').unwrap().1))
+        .unwrap();
+    assert!(none_known(&check(folder.path())));
+}
+
+/// A run of somebody who has this home folder.
+fn at_home(folder: &Path, home: &Path, secret: Option<&str>) -> (bool, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_petril"));
+    command.args(["check", "--json"]).current_dir(folder).env_remove("XDG_STATE_HOME").env_remove("PETRIL_CACHE_KEY");
+    command.env("HOME", home).envs(secret.map(|secret| ("PETRIL_CACHE_KEY", secret)));
+    let run = run(command);
+    let answers = requirements(&json(&run));
+    assert!(all_known(&answers) || none_known(&answers));
+    (all_known(&answers), run.stderr)
+}
+
+#[test]
+#[cfg(unix)]
+fn the_key_is_a_file_of_its_owner_alone() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let (folder, home, other) = (example(), TempDir::new().unwrap(), TempDir::new().unwrap());
+    assert_eq!(at_home(folder.path(), home.path(), None), (false, String::new()));
+    assert_eq!(at_home(folder.path(), home.path(), None), (true, String::new()));
+    let key = home.path().join(".local/state/petril/cache-key");
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    assert_eq!((mode(&key), mode(key.parent().unwrap())), (0o600, 0o700));
+    let secret = fs::read_to_string(&key).unwrap();
+    // Somebody else, to whom the folder is carried, and back.
+    assert_eq!(at_home(folder.path(), other.path(), None), (false, String::new()));
+    assert_ne!(fs::read_to_string(other.path().join(".local/state/petril/cache-key")).unwrap(), secret);
+    assert_eq!(at_home(folder.path(), home.path(), None), (false, String::new()));
+    // A secret of several machines.
+    let team = Some("0123456789abcdef");
+    assert_eq!(at_home(folder.path(), home.path(), team), (false, String::new()));
+    assert_eq!(at_home(folder.path(), other.path(), team), (true, String::new()));
+    let is_noted = |(known, messages): (bool, String), reason: &str| {
+        assert!(
+            !known && messages.starts_with("note: everything is computed") && messages.contains(reason),
+            "{messages}"
+        );
+    };
+    is_noted(at_home(folder.path(), home.path(), Some("too short")), "16 characters at least");
+    // Others can read it; it is elsewhere; it lies in the project; it cannot be made.
+    fs::set_permissions(&key, fs::Permissions::from_mode(0o644)).unwrap();
+    is_noted(at_home(folder.path(), home.path(), None), "its owner alone can read");
+    fs::set_permissions(&key, fs::Permissions::from_mode(0o600)).unwrap();
+    fs::rename(&key, home.path().join("key")).unwrap();
+    std::os::unix::fs::symlink(home.path().join("key"), &key).unwrap();
+    is_noted(at_home(folder.path(), home.path(), None), "its owner alone can read");
+    is_noted(at_home(folder.path(), folder.path(), None), "inside what it signs");
+    is_noted(at_home(folder.path(), &folder.path().join("gate.il"), None), "cannot be used");
 }
 
 /// The scans of the one run that is kept.

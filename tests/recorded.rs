@@ -7,7 +7,7 @@ mod support;
 use std::fs;
 
 use petril::exchange::recorded::{Recorded, recorded};
-use petril::exchange::{Checked, json};
+use petril::exchange::{Checked, Provenance, json};
 use petril::explore::ScanState;
 use petril::flat::{FlatProgram, Tolerated};
 use petril::simulate::scan;
@@ -22,7 +22,7 @@ use support::systems::system;
 /// The report as programs read it.
 fn document(system: &System, report: &Report) -> Value {
     let source = Source::new("p", "");
-    json::report(&Checked { system, source: &source, report }, false)
+    json::report(&Checked { system, source: &source, report, provenance: &Provenance::default() }, false)
 }
 
 /// The run, made again; or where it differs.

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use petril::exchange::{Checked, Stamp, html, sarif};
+use petril::exchange::{Checked, Provenance, Stamp, html, sarif};
 use petril::source::Source;
 use serde_json::Value;
 use support::forms::{EXAMPLES, example, root, schema, situations};
@@ -289,7 +289,7 @@ fn a_page_stays_small() {
         answer.name = format!("{}_{i}", answer.name);
     }
     let source = Source::new("star-delta-broken.il", program);
-    let checked = Checked { system: &system, source: &source, report: &report };
+    let checked = Checked { system: &system, source: &source, report: &report, provenance: &Provenance::default() };
     let page = html::write(&checked, Stamp::default());
     assert!(page.len() < 5_000_000, "{} bytes", page.len());
     for answer in &report.answers {

@@ -5,6 +5,7 @@
 mod support;
 
 use petril::diagnostic::{Code, any_error};
+use petril::exchange::Provenance;
 use petril::exchange::sif::{Ran, Sheets, plan_csv, reasons};
 use petril::flat::{FlatProgram, Tolerated};
 use petril::interpret::Machine;
@@ -184,6 +185,7 @@ fn errors_of_the_program_are_told_with_their_line() {
         origin: None,
         excluded: &[],
         run: Some(ran),
+        provenance: &Provenance::default(),
     };
     let told: Vec<String> = results[0].tests.iter().flat_map(|test| reasons(&sheets, &ran, test)).collect();
     assert_eq!(told, ["in scan 1, a number is divided by 0 (p.il:10: DIV 0)", "scan 1 never ends: it repeats a state"]);
@@ -220,8 +222,15 @@ fn a_plan_is_read_back_as_it_was_written() {
     let specification = read(F1);
     let mut plans = [every(&specification, |_| true)];
     plans[0].tests[3].purpose = vec!["a, \"b\"".to_owned(), "c".to_owned()];
-    let sheets =
-        Sheets { specification: &specification, sources: &[], plans: &plans, origin: None, excluded: &[], run: None };
+    let sheets = Sheets {
+        specification: &specification,
+        sources: &[],
+        plans: &plans,
+        origin: None,
+        excluded: &[],
+        run: None,
+        provenance: &Provenance::default(),
+    };
     let text = plan_csv::write(&sheets);
     for text in [text.clone(), text.replace("\"a, \"\"b\"\"; c\"", "x").replace(',', ";")] {
         let read = plan_csv::read(&Source::new("plan.csv", text.as_str()), &specification).unwrap();

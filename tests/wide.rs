@@ -4,7 +4,7 @@
 
 mod support;
 
-use petril::exchange::{Checked, json};
+use petril::exchange::{Checked, Provenance, json};
 use petril::flat::{FlatProgram, Hazard, Tolerated};
 use petril::logic::{
     View, bind, bind_domain, bind_requirement, parse_domain, parse_formula, parse_requirement, parse_requirements,
@@ -224,7 +224,10 @@ fn reports_for_programs_have_numbers() {
     let system = system(program, &["k: -2"]);
     let report = report(&system, &[], Tolerated::default());
     let source = Source::new("p.il", "");
-    let document = json::report(&Checked { system: &system, source: &source, report: &report }, false);
+    let document = json::report(
+        &Checked { system: &system, source: &source, report: &report, provenance: &Provenance::default() },
+        false,
+    );
     let check = &document["checks"][1];
     assert_eq!((check["name"].as_str(), check["verdict"].as_str()), (Some("overflow"), Some("violated")));
     let scans = &check["trace"]["scans"];

@@ -16,7 +16,7 @@ use super::sif::args::SifVerb;
 ///
 /// Exit codes: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
 #[derive(Debug, Parser)]
-#[command(name = "petril", version, max_term_width = 100)]
+#[command(name = "petril", version = env!("PETRIL_VERSION"), max_term_width = 100)]
 pub struct Args {
     /// What to do.
     #[command(subcommand)]

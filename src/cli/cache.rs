@@ -1,7 +1,7 @@
 //! What is known from earlier checks, in files: one for each system that was checked in one way.
 //!
-//! A file is taken only if it was written by this very program, about this very system, and is as it was written; anything else is
-//! as if it were not there. That a file cannot be written is no error: then more is computed the next time.
+//! A file is taken only if this very program wrote it, about this very system, for whoever has the same key; anything else is as
+//! if it were not there. That a file cannot be written is no error: then more is computed the next time.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -12,6 +12,8 @@ use std::time::{Duration, SystemTime};
 
 use petril::verdict::Known;
 
+use super::cache_key::Key;
+use super::console::Console;
 use super::output;
 
 /// The folder beside a project file.
@@ -32,14 +34,24 @@ pub struct Cache {
     read: Mutex<BTreeMap<PathBuf, Option<String>>>,
     /// Stands for this program: another one may come to other results.
     petril: &'static str,
+    key: Key,
 }
 
 impl Cache {
-    /// The folder that `PETRIL_CACHE` names, or else the one beside a project file.
-    pub fn open(project: Option<&Path>) -> Option<Self> {
+    /// The folder that `PETRIL_CACHE` names, or else the one beside a project file. Without a key nothing is taken or kept.
+    pub fn open(project: Option<&Path>, console: &Console) -> Option<Self> {
         let named = std::env::var_os("PETRIL_CACHE").filter(|name| !name.is_empty()).map(PathBuf::from);
-        let beside = || project.map(|project| project.parent().unwrap_or(Path::new("")).join(NAME));
-        Some(Self { folder: named.or_else(beside)?, read: Mutex::default(), petril: this_program()? })
+        let home = project.map(|project| project.parent().filter(|path| !path.as_os_str().is_empty()));
+        let home = home.map(|home| home.unwrap_or(Path::new(".")));
+        let folder = named.or_else(|| home.map(|home| home.join(NAME)))?;
+        let outside: Vec<&Path> = home.into_iter().chain([folder.as_path()]).collect();
+        match Key::find(&outside) {
+            Ok(key) => Some(Self { folder, read: Mutex::default(), petril: this_program()?, key }),
+            Err(reason) => {
+                console.message(&format!("note: everything is computed, and nothing is kept: {reason}\n"));
+                None
+            }
+        }
     }
 
     /// What is known of a system.
@@ -47,7 +59,11 @@ impl Cache {
         let path = self.path(fingerprint);
         let text = self.read.lock().ok()?.entry(path.clone()).or_insert_with(|| text(&path)).clone()?;
         let (head, body) = text.split_once('\n')?;
-        let known = (head == self.head(fingerprint, body)).then(|| serde_json::from_str(body).ok())??;
+        let (about, code) = head.rsplit_once(' ')?;
+        let signed = self.key.sign(&format!("{about}\n{body}"));
+        // Hashes are compared in constant time.
+        let is_own = about == self.about(fingerprint) && blake3::Hash::from_hex(code).is_ok_and(|code| code == signed);
+        let known = is_own.then(|| serde_json::from_str(body).ok())??;
         // Somebody asks for it.
         let _ = File::open(&path).and_then(|file| file.set_modified(SystemTime::now()));
         Some(known)
@@ -67,8 +83,15 @@ impl Cache {
         self.folder.join(&name.to_hex()[..32])
     }
 
+    /// Signs the body together with what it is about, so that no file can stand for another.
     fn head(&self, fingerprint: &str, body: &str) -> String {
-        format!("petril {} {fingerprint} {}", self.petril, blake3::hash(body.as_bytes()))
+        let about = self.about(fingerprint);
+        let code = self.key.sign(&format!("{about}\n{body}"));
+        format!("{about} {code}")
+    }
+
+    fn about(&self, fingerprint: &str) -> String {
+        format!("petril {} {fingerprint}", self.petril)
     }
 
     /// Makes the folder if there is none, and clears it of what is old.

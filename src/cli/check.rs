@@ -1,12 +1,13 @@
 //! `petril check`: requirements on a program.
 
 use std::ffi::OsString;
+use std::fmt::Debug;
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use petril::exchange::{Checked, json};
+use petril::exchange::{Checked, Provenance, json};
 use petril::explore::Progress;
 use petril::logic::{
     self, Assertion, Assumption, Demand, FairnessAssumption, Requirement, always_scanning, bind_fairness,
@@ -30,13 +31,15 @@ pub struct Done {
     pub system: System,
     pub source: Source,
     pub report: Report,
+    pub provenance: Provenance,
     pub started: Instant,
 }
 
 impl Done {
     /// The report, for those who write it.
     pub fn told(&self) -> Checked<'_> {
-        Checked { system: &self.system, source: &self.source, report: &self.report }
+        let Self { system, source, report, provenance, .. } = self;
+        Checked { system, source, report, provenance }
     }
 }
 
@@ -52,7 +55,7 @@ pub fn run(arguments: &Check, given: &[OsString], console: &Console) -> Outcome 
 /// Checks one program.
 fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
     let watcher = Watcher::new(&arguments.limits)?;
-    let cache = if arguments.no_cache { None } else { Cache::open(None) };
+    let cache = if arguments.no_cache { None } else { Cache::open(None, console) };
     let printed = (!arguments.json).then(|| Printed::new(arguments, console, &watcher));
     let done = checked(arguments, program, cache.as_ref(), console, &watcher, printed.as_ref())?;
     forms::write(&arguments.forms, &done.told(), done.started)?;
@@ -153,7 +156,14 @@ pub fn checked(
     };
     watcher.finish();
     add_warnings(&mut report, console);
-    Ok(Done { system, source, report, started })
+    console.has_options(&options_of(arguments));
+    Ok(Done { system, source, report, provenance: console.provenance(), started })
+}
+
+/// The options that an answer depends on, but for the files that they name: their contents have hashes of their own.
+fn options_of(arguments: &Check) -> impl Debug {
+    let Check { requirement, domain, fairness, view, fair, meaning, limits, .. } = arguments;
+    (requirement, domain, fairness, view, fair, meaning, limits.max_states, limits.max_memory, limits.timeout)
 }
 
 /// Whether two paths lead to the same file.

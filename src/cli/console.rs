@@ -1,16 +1,20 @@
 //! The terminal: colour, width, and where messages go.
 
+use std::fmt;
+use std::fs::File;
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use petril::diagnostic::{Diagnostic, Style, render};
-use petril::exchange::json;
+use petril::exchange::{Provenance, json};
+use petril::printable;
 use petril::source::Source;
 use serde_json::Value;
 
 use super::args::When;
-use super::seen::Seen;
+use super::seen::{Seen, sha256};
 use super::{Failure, Outcome, SUCCESS, guard, output, reason};
 
 /// How many diagnostics of one file are printed. The first ones are the ones to mend.
@@ -30,8 +34,14 @@ pub struct Console {
     /// Messages, if they are not printed at once.
     held: Option<Mutex<String>>,
     colour: When,
+    /// Stands behind the escape of a colour until it is printed. It is another one in each run, so that no text has it.
+    mark: String,
     /// What was seen of the file system.
     seen: Mutex<Seen>,
+    /// What was read before, by the one that this console is told to.
+    read_before: Vec<(String, String)>,
+    /// Hash of the options of the command line.
+    options: Mutex<String>,
 }
 
 /// What one of several consoles was told.
@@ -65,8 +75,25 @@ impl Console {
             printed: Mutex::default(),
             held: None,
             colour,
+            mark: format!("{:016x}", RandomState::new().build_hasher().finish()),
             seen: Mutex::default(),
+            read_before: Vec::new(),
+            options: Mutex::default(),
         }
+    }
+
+    /// The command line asks for this.
+    pub fn has_options(&self, options: &dyn fmt::Debug) {
+        *lock(&self.options) = sha256(format!("{options:?}").as_bytes());
+    }
+
+    /// Where a report comes from that is made now.
+    pub fn provenance(&self) -> Provenance {
+        let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+        let mut inputs = self.read_before.clone();
+        inputs.extend(lock(&self.seen).inputs());
+        let command = std::iter::once("petril".to_owned()).chain(words).collect();
+        Provenance { command, inputs, options: lock(&self.options).clone() }
     }
 
     /// When this uses colours.
@@ -75,8 +102,8 @@ impl Console {
     }
 
     /// A console that keeps everything to itself until it is told to this one.
-    pub fn holding(colour: When) -> Self {
-        Self { held: Some(Mutex::default()), ..Self::new(colour) }
+    pub fn holding(colour: When, read_before: Vec<(String, String)>) -> Self {
+        Self { held: Some(Mutex::default()), read_before, ..Self::new(colour) }
     }
 
     /// What was told to a console that keeps it.
@@ -87,7 +114,7 @@ impl Console {
 
     /// Prints what another one was told.
     pub fn tell(&self, told: Told) {
-        self.message(&told.messages);
+        self.write(&told.messages);
         lock(&self.printed).extend(told.diagnostics);
         lock(&self.seen).extend(told.seen);
     }
@@ -113,10 +140,10 @@ impl Console {
         let style = Style { colour: self.errors_in_colour, width: self.width };
         lock(&self.printed).extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
         for diagnostic in diagnostics.iter().take(MAX_DIAGNOSTICS) {
-            self.message(&format!("{}\n", render(diagnostic, source, style)));
+            self.write(&format!("{}\n", render(diagnostic, source, style)));
         }
         if let Some(more @ 1..) = diagnostics.len().checked_sub(MAX_DIAGNOSTICS) {
-            self.message(&format!("… and {more} more in {}\n", source.name()));
+            self.message(&format!("… and {more} more in {}\n", printable::line(source.name())));
         }
     }
 
@@ -129,22 +156,51 @@ impl Console {
         warnings.map(|d| (text(&d["code"]), place(d), text(&d["message"]))).collect()
     }
 
-    /// Prints an error that has no place in a file.
+    /// Prints an error that has no place in a file. Its further lines are indented: none of them can pass for a line of its own.
     pub fn error(&self, message: &str) {
         let title = if self.errors_in_colour { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
-        self.message(&format!("{title}: {message}\n"));
+        let message = printable::lines(message);
+        let lines =
+            message.lines().map(|line| if line.starts_with("  ") { line.to_owned() } else { format!("  {line}") });
+        self.write(&format!("{title}: {}\n", lines.collect::<Vec<_>>().join("\n").trim_start()));
     }
 
     /// Prints a message. If nobody listens, so be it.
     pub fn message(&self, text: &str) {
+        self.write(&printable::lines(text));
+    }
+
+    /// Prints a message as it is, with its colours.
+    fn write(&self, text: &str) {
         match &self.held {
             Some(held) => lock(held).push_str(text),
             None => drop(guard::pause(|| io::stderr().write_all(text.as_bytes()))),
         }
     }
 
-    /// Prints a result.
+    /// Prints a result. Nothing in it but the colours of [`paint()`](Self::paint) can change how a terminal shows it.
     pub fn print(&self, text: &str) -> Outcome {
+        let mark = format!("\u{1b}{}", self.mark);
+        let pieces: Vec<_> = text.split(&mark).map(printable::lines).collect();
+        self.print_as_it_is(&pieces.join("\u{1b}"))
+    }
+
+    /// Prints a report for people. One that is kept in a file says where it comes from, and so does one that tells everything.
+    pub fn print_report(&self, text: &str, provenance: &Provenance, tells_everything: bool) -> Outcome {
+        if !tells_everything && !is_kept() {
+            return self.print(text);
+        }
+        let pairs = provenance.pairs();
+        let lines = pairs.iter().map(|(what, said)| format!("{what}: {said}\n"));
+        self.print(&format!("{text}\n{}", lines.collect::<String>()))
+    }
+
+    /// Makes the terminal empty, if results go to one.
+    pub fn clear(&self) -> Outcome {
+        if io::stdout().is_terminal() { self.print_as_it_is("\u{1b}[2J\u{1b}[H") } else { Ok(SUCCESS) }
+    }
+
+    fn print_as_it_is(&self, text: &str) -> Outcome {
         // What is behind the last line end waits in a buffer, and would be lost without a word.
         let mut out = io::stdout().lock();
         match guard::pause(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
@@ -155,10 +211,13 @@ impl Console {
         }
     }
 
-    /// Prints a result as a JSON document, with the diagnostics printed so far.
+    /// Prints a result as a JSON document, with the diagnostics printed so far, and where it comes from.
     pub fn print_json(&self, mut document: Value) -> Outcome {
+        if document["provenance"].is_null() {
+            document["provenance"] = self.provenance().json();
+        }
         document["diagnostics"] = Value::Array(std::mem::take(&mut *lock(&self.printed)));
-        self.print(&format!("{document:#}\n"))
+        self.print_as_it_is(&printable::json(&format!("{document:#}\n")))
     }
 
     /// How wide a result may be; a pipe takes any width.
@@ -178,7 +237,8 @@ impl Console {
             Colour::Bad => "31",
             Colour::Doubtful => "33",
         };
-        if self.output_in_colour { format!("\u{1b}[1;{code}m{word}\u{1b}[0m") } else { word.to_owned() }
+        let escape = format!("\u{1b}{}", self.mark);
+        if self.output_in_colour { format!("{escape}[1;{code}m{word}{escape}[0m") } else { word.to_owned() }
     }
 
     /// Whether results may have colours.
@@ -202,6 +262,15 @@ pub enum Colour {
     Good,
     Bad,
     Doubtful,
+}
+
+/// Whether results go into a file.
+fn is_kept() -> bool {
+    #[cfg(unix)]
+    let copy = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
+    #[cfg(windows)]
+    let copy = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned();
+    copy.is_ok_and(|copy| File::from(copy).metadata().is_ok_and(|about| about.is_file()))
 }
 
 /// Columns of the terminal, if it says.

@@ -2,13 +2,14 @@
 
 use petril::diagnostic::{any_error, nearest};
 use petril::flat::{FlatProgram, flatten};
+use petril::printable;
 use petril::source::Source;
 use petril::translate::{Plant, System};
 use petril::{draw, semantics, syntax};
 
 use super::args::Draw;
 use super::console::Console;
-use super::{Failure, Outcome, SUCCESS, input, output};
+use super::{Failure, Outcome, SUCCESS, input, output, shown};
 
 /// The operators there are pictures of.
 const OPERATORS: [&str; 19] = [
@@ -32,7 +33,7 @@ pub fn run(arguments: &Draw, console: &Console) -> Outcome {
     let title = program.text(program.code[line].instruction);
     let system = System::new(program, Plant::default());
     output::write_text(&arguments.output, &draw::subnet(&system, line, Some(title.trim())).svg())?;
-    console.message(&format!("{}\n", arguments.output.display()));
+    console.message(&format!("{}\n", shown(&arguments.output)));
     Ok(SUCCESS)
 }
 
@@ -42,7 +43,8 @@ fn single(operator: &str) -> Result<(FlatProgram, usize), Failure> {
     let unknown = || {
         let hint = nearest(&operator, OPERATORS).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
         Failure::Message(format!(
-            "there is no picture of `{operator}`{hint}\n  the operators there are pictures of: {}",
+            "there is no picture of `{}`{hint}\n  the operators there are pictures of: {}",
+            printable::line(&operator),
             OPERATORS.join(" ")
         ))
     };

@@ -3,6 +3,7 @@
 //! The pages are `docs/codes/*.md`; `tests/diagnostics.rs` holds them to what is said.
 
 use petril::diagnostic::{Code, nearest};
+use petril::printable;
 
 use super::args::Explain;
 use super::console::Console;
@@ -46,7 +47,8 @@ pub fn run(arguments: &Explain, console: &Console) -> Outcome {
                 None => String::new(),
             };
             Err(Failure::Message(format!(
-                "there is no code `{word}`{hint}\n  `petril explain` without a code lists them all"
+                "there is no code `{}`{hint}\n  `petril explain` without a code lists them all",
+                printable::line(word)
             )))
         }
     }

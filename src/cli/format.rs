@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
-use super::Failure;
+use super::{Failure, shown};
 
 /// A format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ impl Format {
             let known: Vec<String> = ENDINGS.iter().map(|(ending, _, tools)| format!(".{ending}{tools}")).collect();
             let (last, others) = known.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
             let known = format!("{} or {last}", others.join(", "));
-            Failure::Message(format!("`{}` says no format: its name must end with {known}", path.display()))
+            Failure::Message(format!("`{}` says no format: its name must end with {known}", shown(path)))
         })
     }
 }

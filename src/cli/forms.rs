@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, sarif, vcd};
+use petril::printable;
 use petril::verdict::{Answer, Trace};
 
-use super::{Failure, guard, output, reason};
+use super::{Failure, guard, output, reason, shown};
 
 /// Files that a check writes beside its report.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -44,7 +45,7 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
         output::write_text(file, &junit::write(checked, stamp))?;
     }
     if let Some(file) = &forms.sarif {
-        output::write_text(file, &format!("{}\n", sarif::write(checked, stamp)))?;
+        output::write_text(file, &printable::json(&format!("{}\n", sarif::write(checked, stamp))))?;
     }
     if let Some(file) = &forms.csv {
         output::write_text(file, &report_csv::write(checked))?;
@@ -75,9 +76,8 @@ fn each_counterexample(
     checked: &Checked<'_>,
     content: impl Fn(&Answer, &Trace) -> Option<String>,
 ) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::Message(format!("cannot make the folder `{}`: {}", folder.display(), reason(&error)))
-    })?;
+    fs::create_dir_all(folder)
+        .map_err(|error| Failure::Message(format!("cannot make the folder `{}`: {}", shown(folder), reason(&error))))?;
     for answer in checked.answers() {
         for (_, witness) in runs(answer).filter(|(purpose, _)| *purpose == Purpose::Counterexample) {
             let plain = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };

@@ -16,7 +16,7 @@ use petril::translate::{Plant, System};
 
 use super::console::Console;
 use super::meaning::Reading;
-use super::{Failure, guard, output, reason};
+use super::{Failure, guard, output, reason, shown};
 
 /// Programs and requirements are written by hand; nets may come from a generator.
 pub const MAX_TEXT: u64 = 64 << 20;
@@ -27,13 +27,14 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
     let name = path.display().to_string();
     let cannot = |error: std::io::Error| {
         console.has_read(path, None);
-        Failure::Message(format!("cannot read `{name}`: {}", reason(&error)))
+        Failure::Message(format!("cannot read `{}`: {}", shown(path), reason(&error)))
     };
     let mut bytes = Vec::new();
     guard::phase("reading files");
     if name == "-" {
         output::has_read(path);
         std::io::stdin().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
+        console.has_read(path, Some(&bytes));
     } else {
         // The file itself, not a trait object: it knows its size, so that the bytes are put in their place at once.
         File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(cannot)?;
@@ -117,8 +118,7 @@ fn net_by(path: &Path, [of_tina, of_pnml]: [NetReader; 2], console: &Console) ->
         Some("net") => of_tina,
         Some("pnml") => of_pnml,
         _ => {
-            let message =
-                format!("`{}` is no net that can be read: its name must end with .net or .pnml", path.display());
+            let message = format!("`{}` is no net that can be read: its name must end with .net or .pnml", shown(path));
             return Err(Failure::Message(message));
         }
     };

@@ -7,7 +7,7 @@ use clap_mangen::Man;
 
 use super::args::{Args, Manual};
 use super::console::Console;
-use super::{Failure, Outcome, SUCCESS, output, reason};
+use super::{Failure, Outcome, SUCCESS, output, reason, shown};
 
 pub fn run(arguments: &Manual, console: &Console) -> Outcome {
     let mut command = Args::command();
@@ -15,7 +15,7 @@ pub fn run(arguments: &Manual, console: &Console) -> Outcome {
     let Some(folder) = &arguments.output else {
         return console.print(&page(&command)?);
     };
-    let cannot = |error| Failure::Message(format!("cannot make `{}`: {}", folder.display(), reason(&error)));
+    let cannot = |error| Failure::Message(format!("cannot make `{}`: {}", shown(folder), reason(&error)));
     fs::create_dir_all(folder).map_err(cannot)?;
     let mut left = vec![&command];
     while let Some(command) = left.pop() {

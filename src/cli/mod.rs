@@ -4,6 +4,7 @@
 
 mod args;
 mod cache;
+mod cache_key;
 mod check;
 mod completions;
 mod console;
@@ -40,10 +41,13 @@ mod simulate;
 mod translate;
 mod watch;
 
+use std::ffi::OsString;
 use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches};
+use petril::printable;
 use serde_json::json;
 
 use args::{Args, NetVerb, Verb};
@@ -73,9 +77,22 @@ fn reason(error: &io::Error) -> String {
     text.split(" (os error ").next().unwrap_or_default().to_lowercase()
 }
 
+/// A path as people read it.
+fn shown(path: &Path) -> String {
+    printable::line(&path.display().to_string())
+}
+
+/// Says what is wrong with the command line, or what was asked for instead of a verb. The words are those that people read: the
+/// same mistake is made again with these.
+fn refuse(error: clap::Error, words: &[OsString]) -> ! {
+    let words = words.iter().map(|word| printable::line(&word.to_string_lossy()));
+    Args::command().try_get_matches_from(words).err().unwrap_or(error).exit()
+}
+
 /// Reads the command line and does what it says.
 pub fn run() -> ExitCode {
-    let matches = Args::command().get_matches();
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let matches = Args::command().try_get_matches_from(&words).unwrap_or_else(|error| refuse(error, &words));
     let args = Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let console = Console::new(args.colour);
     let wants_json = args.verb.wants_json();
@@ -83,6 +100,7 @@ pub fn run() -> ExitCode {
         guard::start(&bounds, guard::Ending { has_verdict: args.verb.has_verdict(), wants_json });
         sign_of_life::begin();
     }
+    console.has_options(&args.verb);
     let outcome = match args.verb {
         Verb::Check(arguments) => check::run(&arguments, &project::given(&matches), &console),
         Verb::Translate(arguments) => translate::run(&arguments, &console),

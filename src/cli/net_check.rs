@@ -9,6 +9,7 @@ use petril::exchange::tapaal;
 use petril::explore::engine::Options;
 use petril::logic::{Nodes, View, bind_in_net, parse_formula};
 use petril::net::{Located, PlaceId, TransitionId};
+use petril::printable;
 use petril::source::Source;
 use petril::verdict::{Means, Question, Reply, Run, judge_aloud};
 use serde_json::json;
@@ -30,7 +31,8 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     // Whoever ends the work from outside keeps what is known.
     let mut tell = |number: usize, reply: &Reply, means: &[Means]| {
         if !arguments.on.json && printed.is_ok() {
-            let answer = Answer { name: &names[number], reply, means, located: &located };
+            let (name, is_id) = &names[number];
+            let answer = Answer { name, is_id: *is_id, reply, means, located: &located };
             printed = watcher.suspend(|| console.print(&answer.text(arguments.trace)));
         }
     };
@@ -39,8 +41,8 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     printed?;
     if arguments.on.json {
         let found = report.replies.iter().zip(&report.means);
-        let answer = |(name, (reply, means)): (&String, (&Reply, &Vec<Means>))| {
-            Answer { name, reply, means, located: &located }.json()
+        let answer = |((name, is_id), (reply, means)): (&(String, bool), (&Reply, &Vec<Means>))| {
+            Answer { name, is_id: *is_id, reply, means, located: &located }.json()
         };
         console.print_json(json!({
             "net": net.name(),
@@ -57,12 +59,12 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     })
 }
 
-/// What is asked, and what each question is called. All errors are printed.
+/// What is asked, and what each question is called, and whether that is an id. All errors are printed.
 fn questions(
     arguments: &NetCheck,
     located: &Located,
     console: &Console,
-) -> Result<(Vec<String>, Vec<Question>), Failure> {
+) -> Result<(Vec<(String, bool)>, Vec<Question>), Failure> {
     let (mut names, mut questions) = (Vec::new(), Vec::new());
     let mut failed = false;
     let mut refuse = |diagnostics: &[Diagnostic], source: &Source| {
@@ -82,7 +84,7 @@ fn questions(
             };
             match question {
                 Ok(question) => {
-                    names.push(property.id);
+                    names.push((property.id, true));
                     questions.push(question);
                 }
                 Err(more) => errors.extend(more),
@@ -99,14 +101,14 @@ fn questions(
         match parsed.and_then(|parsed| bind_in_net(&parsed, &by_name)) {
             Ok(bound) => {
                 console.diagnostics(doubt.as_slice(), &source);
-                names.push(text.clone());
+                names.push((text.clone(), false));
                 questions.push(Question::Holds(bound.simplified()));
             }
             Err(errors) => refuse(&errors, &source),
         }
     }
     for examination in &arguments.examination {
-        names.push(examination.name().to_owned());
+        names.push((examination.name().to_owned(), false));
         questions.push(examination.question());
     }
     if failed { Err(Failure::Reported) } else { Ok((names, questions)) }
@@ -122,6 +124,8 @@ fn ids(located: &Located) -> Nodes<'_> {
 
 struct Answer<'r> {
     name: &'r str,
+    /// Whether the name is that of a property in a file, not a formula.
+    is_id: bool,
     reply: &'r Reply,
     means: &'r [Means],
     located: &'r Located,
@@ -151,9 +155,12 @@ impl Answer<'_> {
             Reply::Most(most) => most.to_string(),
             Reply::Unknown(_) => "CANNOT_COMPUTE".to_owned(),
         };
-        let _ = writeln!(out, "FORMULA {} {word} TECHNIQUES {}", self.name, self.techniques());
+        // An id is one word, so that none can hold an answer of its own.
+        let name = printable::line(self.name);
+        let name = if self.is_id { name.replace(' ', "\\u{20}") } else { name };
+        let _ = writeln!(out, "FORMULA {name} {word} TECHNIQUES {}", self.techniques());
         if let Reply::Unknown(reason) = self.reply {
-            let _ = writeln!(out, "    {reason}");
+            let _ = writeln!(out, "    {}", printable::line(reason));
         }
         let Some(run) = self.run() else { return out };
         let Located { net, ids, .. } = self.located;

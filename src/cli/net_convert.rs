@@ -9,7 +9,7 @@ use petril::net::Net;
 use super::args::NetConvert;
 use super::console::Console;
 use super::format::Format;
-use super::{Failure, Outcome, input, output};
+use super::{Failure, Outcome, input, output, shown};
 
 /// The most nodes that Graphviz lays out in a minute or so.
 const MANY_FOR_GRAPHVIZ: usize = 2_000;
@@ -23,7 +23,7 @@ pub fn run(arguments: &NetConvert, console: &Console) -> Outcome {
     let extras = Extras { ids: located.ids.as_ref(), units: located.units.as_ref(), ..Extras::default() };
     write(&arguments.output, format, net, extras, console)?;
     let (places, transitions) = (net.places().len(), net.transitions().len());
-    console.print(&format!("{}: {places} places, {transitions} transitions\n", arguments.output.display()))
+    console.print(&format!("{}: {places} places, {transitions} transitions\n", shown(&arguments.output)))
 }
 
 /// The format that the name of a file asks for.

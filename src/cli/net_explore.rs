@@ -15,7 +15,7 @@ use super::{Outcome, SUCCESS, guard, input};
 pub fn run(arguments: &OnNet, console: &Console) -> Outcome {
     let watcher = Watcher::new(&arguments.limits)?;
     let (located, _) = input::net(&arguments.model, console)?;
-    let net = located.net;
+    let net = if arguments.json { located.net } else { located.net.into_printable() };
     guard::phase("exploring the net");
     let options = Options { budget: arguments.limits.budget(), threads: threads(&arguments.limits), keep: false };
     let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);

@@ -29,7 +29,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let on = &arguments.on;
     let watcher = Watcher::new(&on.limits)?;
     let (located, _) = input::net(&on.model, console)?;
-    let net = located.net;
+    let net = if on.json { located.net } else { located.net.into_printable() };
     guard::phase("looking at the structure of the net");
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use petril::diagnostic::nearest;
 use petril::exchange::pnml::Extras;
 use petril::net::{Net, PlaceId, TransitionId};
+use petril::printable;
 use petril::structure::reduce::{Keep, Property, Size, reduce};
 use serde_json::json;
 
@@ -61,5 +62,5 @@ fn transitions(net: &Net, arguments: &NetReduce) -> Result<Vec<TransitionId>, Fa
 
 fn unknown<'n>(kind: &str, name: &str, names: impl Iterator<Item = &'n str>) -> Failure {
     let help = nearest(name, names).map(|nearest| format!("; did you mean `{nearest}`?")).unwrap_or_default();
-    Failure::Message(format!("the net has no {kind} `{name}`{help}"))
+    Failure::Message(printable::line(&format!("the net has no {kind} `{name}`{help}")))
 }

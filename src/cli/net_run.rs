@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use petril::logic::Bound;
 use petril::net::Net;
+use petril::printable::line;
 use petril::verdict::{Branch, Run};
 use serde_json::json;
 
@@ -36,13 +37,13 @@ fn write(run: &Run, net: &Net, indent: usize, out: &mut String) {
         }
         if let Some(&transition) = run.firings.get(at) {
             let again = if run.loop_start == Some(at) { "  (from here for ever)" } else { "" };
-            let _ = writeln!(out, "{:indent$}{:>4}  {}{again}", "", at + 1, net.transition(transition).name);
+            let _ = writeln!(out, "{:indent$}{:>4}  {}{again}", "", at + 1, line(net.transition(transition).name));
         }
     }
 }
 
 fn formula(formula: &Bound, net: &Net) -> String {
-    let text = formula.text_in_net(net);
+    let text = line(&formula.text_in_net(net));
     match text.char_indices().nth(LONG) {
         Some((end, _)) => format!("{} ...", &text[..end]),
         None => text,

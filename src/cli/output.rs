@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
-use super::{Failure, guard, reason};
+use super::{Failure, guard, reason, shown};
 
 /// What writes a file, piece by piece: it may be larger than is good to hold in memory.
 type Content<'c> = &'c dyn Fn(&mut dyn Write) -> io::Result<()>;
@@ -70,7 +70,7 @@ pub fn refuse<'p>(outputs: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), 
     for path in outputs {
         refuse_input(path)?;
         if !seen.insert(Identity::of(path)) {
-            let message = format!("`{}` cannot be two things: give each form a file of its own", path.display());
+            let message = format!("`{}` cannot be two things: give each form a file of its own", shown(path));
             return Err(Failure::Message(message));
         }
     }
@@ -79,7 +79,7 @@ pub fn refuse<'p>(outputs: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), 
 
 fn refuse_input(path: &Path) -> Result<(), Failure> {
     if lock(&READ).contains(&Identity::of(path)) {
-        let message = format!("`{}` is an input, and is not overwritten: name another file to write", path.display());
+        let message = format!("`{}` is an input, and is not overwritten: name another file to write", shown(path));
         return Err(Failure::Message(message));
     }
     Ok(())
@@ -89,7 +89,7 @@ fn refuse_input(path: &Path) -> Result<(), Failure> {
 /// replaced keeps its mode. A device or a pipe is not replaced but written to, a link is followed.
 pub fn write(path: &Path, content: Content<'_>) -> Result<(), Failure> {
     refuse_input(path)?;
-    let cannot = |error: Error| Failure::Message(format!("cannot write `{}`: {}", path.display(), reason(&error)));
+    let cannot = |error: Error| Failure::Message(format!("cannot write `{}`: {}", shown(path), reason(&error)));
     match fs::metadata(path) {
         Ok(known) if known.is_dir() => Err(cannot(ErrorKind::IsADirectory.into())),
         Ok(known) if known.is_file() => {

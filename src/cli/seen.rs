@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use blake3::Hash;
+use sha2::{Digest as _, Sha256};
 
 /// Files that were read and patterns that were followed.
 #[derive(Debug, Default)]
 pub struct Seen {
     /// Each file, with what was in it; nothing if it could not be read.
-    files: Vec<(PathBuf, Option<Hash>)>,
+    files: Vec<(PathBuf, Option<String>)>,
     /// Each pattern, with the files it matched.
     patterns: Vec<(String, Vec<PathBuf>)>,
 }
@@ -18,7 +18,15 @@ pub struct Seen {
 impl Seen {
     /// A file was read, or could not be.
     pub fn file(&mut self, path: &Path, bytes: Option<&[u8]>) {
-        self.files.push((path.to_owned(), bytes.map(blake3::hash)));
+        self.files.push((path.to_owned(), bytes.map(sha256)));
+    }
+
+    /// The files that were read, each once, with their SHA-256.
+    pub fn inputs(&self) -> Vec<(String, String)> {
+        let mut known = BTreeSet::new();
+        let read = self.files.iter().filter_map(|(path, hash)| Some((path, hash.as_ref()?)));
+        let read = read.filter(|(path, _)| known.insert(*path));
+        read.map(|(path, hash)| (path.display().to_string(), hash.clone())).collect()
     }
 
     /// A pattern matched these files.
@@ -34,13 +42,14 @@ impl Seen {
 
     /// How many files were read.
     pub fn count(&self) -> usize {
-        self.files.iter().map(|(path, _)| path).collect::<BTreeSet<_>>().len()
+        self.files.iter().map(|(path, _)| path).filter(|path| !is_standard_input(path)).collect::<BTreeSet<_>>().len()
     }
 
     /// Whether a file or what a pattern matches is not what it was.
     pub fn is_other_now(&self) -> bool {
-        let file =
-            |(path, then): &(PathBuf, Option<Hash>)| fs::read(path).ok().map(|bytes| blake3::hash(&bytes)) != *then;
+        let file = |(path, then): &(PathBuf, Option<String>)| {
+            !is_standard_input(path) && fs::read(path).ok().map(|bytes| sha256(&bytes)) != *then
+        };
         self.files.iter().any(file) || self.patterns.iter().any(|(pattern, then)| matching(pattern) != *then)
     }
 
@@ -52,6 +61,16 @@ impl Seen {
         };
         self.files.iter().map(folder).collect()
     }
+}
+
+/// A hash in hexadecimal digits, as `sha256sum` prints it.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Whether a path stands for standard input, which is read once.
+fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
 }
 
 /// The files that a pattern matches, in the order of their names; none if it is no pattern.

@@ -7,7 +7,7 @@ use petril::exchange::pnml::Extras;
 use super::args::Translate;
 use super::console::Console;
 use super::format::Format;
-use super::{Failure, Outcome, input, net_convert, output};
+use super::{Failure, Outcome, input, net_convert, output, shown};
 
 /// The most nodes a picture shows of a program: its file has a tenth of a gigabyte then.
 const MAX_DRAWN: usize = 100_000;
@@ -34,5 +34,5 @@ pub fn run(arguments: &Translate, console: &Console) -> Outcome {
             net_convert::write(&arguments.output, format, &system.net, extras, console)?;
         }
     }
-    console.print(&format!("{}: {places} places, {transitions} transitions\n", arguments.output.display()))
+    console.print(&format!("{}: {places} places, {transitions} transitions\n", shown(&arguments.output)))
 }

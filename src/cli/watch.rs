@@ -1,6 +1,5 @@
 //! `--watch`: checks again whenever a file changes that was read.
 
-use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
@@ -24,9 +23,7 @@ const INTERRUPTED: u8 = 130;
 pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
     guard::listen();
     loop {
-        if io::stdout().is_terminal() {
-            console.print("\u{1b}[2J\u{1b}[H")?;
-        }
+        console.clear()?;
         if let Err(Failure::Message(message)) = check() {
             console.error(&message);
         }

@@ -3,6 +3,7 @@
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::{Diagnostic, Severity};
+use crate::printable;
 use crate::source::Source;
 
 /// Lines of context around an excerpt.
@@ -37,7 +38,11 @@ pub fn render(diagnostic: &Diagnostic, source: &Source, style: Style) -> String 
         Severity::Warning => Level::WARNING,
     };
     let group = level.primary_title(shortened(&diagnostic.message)).id(diagnostic.code.id());
-    let group = group.element(excerpt(diagnostic, source));
+    let (name, labels) = (
+        printable::line(source.name()),
+        diagnostic.labels.iter().map(|l| printable::line(&l.text)).collect::<Vec<_>>(),
+    );
+    let group = group.element(excerpt(diagnostic, source, &name, &labels));
     let group: Group<'_> = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(shortened(help))));
     let renderer = if style.colour { Renderer::styled() } else { Renderer::plain() };
     let mut text = renderer.term_width(style.width).render(&[group]);
@@ -45,8 +50,9 @@ pub fn render(diagnostic: &Diagnostic, source: &Source, style: Style) -> String 
     text
 }
 
-/// A message with its longest words cut: a name can be as long as a file.
+/// A message on one line, with its longest words cut: a name can be as long as a file.
 fn shortened(message: &str) -> String {
+    let message = printable::line(message);
     let mut length = 0;
     let keep = |c: char| {
         length = if c.is_whitespace() { 0 } else { length + 1 };
@@ -60,8 +66,26 @@ fn shortened(message: &str) -> String {
     message.chars().filter_map(keep).collect()
 }
 
+/// A text with signs of as many bytes in the place of what would not show as itself: offsets stay right. The renderer has signs of
+/// its own for the control characters of one byte.
+fn visible(text: &str) -> String {
+    let sign = |c: char| match c.len_utf8() {
+        _ if printable::is_printable(c) => c,
+        1 => c,
+        2 => '·',
+        3 => char::REPLACEMENT_CHARACTER,
+        _ => '\u{1F5C6}',
+    };
+    text.chars().map(sign).collect()
+}
+
 /// Only the lines the labels touch go to the renderer: it reads all it is given.
-fn excerpt<'a>(diagnostic: &'a Diagnostic, source: &'a Source) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+fn excerpt<'a>(
+    diagnostic: &'a Diagnostic,
+    source: &'a Source,
+    name: &'a str,
+    texts: &'a [String],
+) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let clamp = |offset: usize| offset.min(source.text().len());
     let lines = diagnostic.labels.iter().flat_map(|l| [l.span.start, l.span.end]).map(|o| source.line_of(clamp(o)));
     let first = lines.clone().min().unwrap_or(1).saturating_sub(CONTEXT).max(1);
@@ -74,9 +98,9 @@ fn excerpt<'a>(diagnostic: &'a Diagnostic, source: &'a Source) -> Snippet<'a, an
         let kind = if i == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };
         let start = clamp(label.span.start) - window.start;
         let end = (clamp(label.span.end) - window.start).max(start);
-        kind.span(start..end).label((!label.text.is_empty()).then_some(label.text.as_str()))
+        kind.span(start..end).label(Some(texts[i].as_str()).filter(|text| !text.is_empty()))
     });
-    Snippet::source(source.slice(window)).path(source.name()).line_start(first).annotations(annotations)
+    Snippet::source(visible(source.slice(window))).path(name).line_start(first).annotations(annotations)
 }
 
 #[cfg(test)]

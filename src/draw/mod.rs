@@ -10,7 +10,6 @@ mod block;
 mod control;
 mod crossings;
 mod diagram;
-mod escape;
 mod picture;
 mod positions;
 mod subnet;
@@ -21,5 +20,3 @@ pub use picture::{Anchor, At, DrawnArc, DrawnPlace, DrawnText, DrawnTransition, 
 pub use positions::{Point, Positions};
 pub use subnet::subnet;
 pub use svg::{BOX_HEIGHT, RADIUS};
-
-pub(crate) use escape::printable;

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 
 use quick_xml::escape::escape;
 
-use super::escape::printable;
 use super::picture::{Anchor, At, DrawnArc, DrawnPlace, DrawnText, DrawnTransition, Head, Picture, PlaceStyle};
 use crate::net::{PlaceId, TransitionId};
+use crate::printable;
 
 /// Radius of a place.
 pub const RADIUS: f64 = 12.0;
@@ -55,7 +55,7 @@ impl Picture {
     #[must_use]
     pub fn svg(&self) -> String {
         let Self { width, height, .. } = *self;
-        let title = printable(&self.title);
+        let title = printable::line(&self.title);
         let mut out = format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}" font-family="ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace" font-size="{FONT}">
 <title>{title}</title>
@@ -111,6 +111,6 @@ fn text(DrawnText { text, at: At { x, y }, anchor, strong }: &DrawnText) -> Stri
         Anchor::End => r#" text-anchor="end""#,
     };
     let weight = if *strong { r#" font-weight="bold""# } else { "" };
-    let (text, y) = (printable(text), y + FONT * 0.35);
+    let (text, y) = (printable::line(text), y + FONT * 0.35);
     format!("<text x=\"{x:.1}\" y=\"{y:.1}\"{anchor}{weight}>{}</text>\n", escape(&text))
 }

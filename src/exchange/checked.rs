@@ -1,6 +1,8 @@
 //! A report together with what it is about, and what its forms have in common.
 
+use super::Provenance;
 use crate::logic::{Origin, View};
+use crate::printable;
 use crate::semantics::VarId;
 use crate::source::Source;
 use crate::translate::System;
@@ -16,6 +18,8 @@ pub struct Checked<'a> {
     pub source: &'a Source,
     /// What came out.
     pub report: &'a Report,
+    /// Where it comes from.
+    pub provenance: &'a Provenance,
 }
 
 /// What a run that goes with an answer is there for.
@@ -84,13 +88,13 @@ impl<'a> Checked<'a> {
         };
         // What is doubtful about the requirement goes with every verdict.
         let parts: Vec<String> = reason.into_iter().chain(answer.remark.clone()).collect();
-        (!parts.is_empty()).then(|| parts.join("; "))
+        (!parts.is_empty()).then(|| printable::line(&parts.join("; ")))
     }
 
     /// What a run shows, as sentences.
     pub fn notes(&self, witness: &Witness) -> impl Iterator<Item = String> {
         let view = self.view();
-        witness.notes.iter().map(move |note| note.sentence(view))
+        witness.notes.iter().map(move |note| printable::line(&note.sentence(view)))
     }
 
     /// A run that goes with an answer, as a table, and what it shows, in plain text.
@@ -137,7 +141,7 @@ impl<'a> Checked<'a> {
             sentences.push(format!("with {} this run would not break it{others}", self.changes(&repair.changes)));
         }
         sentences.extend(why.unrepaired.iter().map(|reason| format!("no input is named that matters: {reason}")));
-        sentences
+        sentences.iter().map(|sentence| printable::line(sentence)).collect()
     }
 
     /// Other values of inputs: "S1 = 0 instead of 1 in scan 2".

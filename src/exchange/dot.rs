@@ -4,6 +4,7 @@ use std::io;
 
 use super::text;
 use crate::net::Net;
+use crate::printable;
 
 /// Writes a net: places as circles, the marked ones with a token, transitions as boxes. The head of a read arc is a dot, as
 /// in the seed paper's figure 2.
@@ -70,16 +71,13 @@ pub fn write(net: &Net) -> String {
     text(|out| write_to(net, out))
 }
 
-/// A text inside the quotes of a DOT string. A backslash would begin one of its escapes, an ampersand one of HTML's, and a
-/// NUL would end the file.
+/// A text on one line inside the quotes of a DOT string. A backslash would begin one of its escapes, an ampersand one of HTML's.
 fn escaped(text: &str) -> String {
     let replace = |c: char| match c {
         '\\' => "\\\\".to_owned(),
         '"' => "\\\"".to_owned(),
         '&' => "&amp;".to_owned(),
-        '\n' => "\\n".to_owned(),
-        '\0' => char::REPLACEMENT_CHARACTER.to_string(),
         c => c.to_string(),
     };
-    text.chars().map(replace).collect()
+    printable::line(text).chars().map(replace).collect()
 }

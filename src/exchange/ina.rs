@@ -33,13 +33,14 @@ use std::io;
 use super::escape::{Alphabet, escaped};
 use super::text;
 use crate::net::{Net, PlaceId, TransitionId};
+use crate::printable::is_printable;
 use crate::rows::Rows;
 
 /// The longest name.
 const LONGEST: usize = 16;
 
 /// Names in full, which INA does not read: anything that stays on its line.
-const LINE: Alphabet = Alphabet { allows: |c| !c.is_control(), begins: |c| !c.is_control(), is_reserved: |_| false };
+const LINE: Alphabet = Alphabet { allows: is_printable, begins: is_printable, is_reserved: |_| false };
 
 /// Writes a net, a read arc as a loop. A name that is too long or has characters that cannot be is shortened to one no other
 /// node has; such names stand in full behind the net, where INA does not look.

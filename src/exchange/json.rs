@@ -33,7 +33,7 @@ pub fn diagnostic(diagnostic: &Diagnostic, source: &Source) -> Value {
 /// The report of a check; `by_line` tells the last scan of each run instruction by instruction, too.
 #[must_use]
 pub fn report(checked: &Checked<'_>, by_line: bool) -> Value {
-    let Checked { system, source, report } = *checked;
+    let Checked { system, source, report, provenance } = *checked;
     let size = |(places, transitions)| json!({ "places": places, "transitions": transitions });
     let parts: Map<String, Value> =
         Part::ALL.map(|part| (part.name().to_owned(), size(system.size(part)))).into_iter().collect();
@@ -63,6 +63,7 @@ pub fn report(checked: &Checked<'_>, by_line: bool) -> Value {
         "notes": report.remarks.iter().map(|r| remark(checked, r)).collect::<Vec<_>>(),
         "coverage": report.coverage.as_ref().map(|found| coverage(checked, found)),
         "verdict": report.verdict().word(),
+        "provenance": provenance.json(),
     })
 }
 

@@ -11,7 +11,7 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 use super::checked::{Checked, tags, why};
 use super::stamp::Stamp;
 use super::text;
-use crate::draw::printable;
+use crate::printable::{self, line};
 use crate::verdict::{Answer, Outcome, Verdict};
 
 type Xml<'o> = Writer<&'o mut Vec<u8>>;
@@ -39,7 +39,7 @@ pub fn write_all(reports: &[(&str, Checked<'_>, Stamp)]) -> String {
 
 fn suite(xml: &mut Xml<'_>, id: usize, name: &str, checked: &Checked<'_>, stamp: Stamp) -> io::Result<()> {
     let count = |verdict| checked.answers().filter(|a| a.outcome.verdict() == verdict).count().to_string();
-    let (name, time) = (printable(name), format!("{:.3}", stamp.took.max(0.0)));
+    let (name, time) = (line(name), format!("{:.3}", stamp.took.max(0.0)));
     let attributes = [
         ("name", name.as_str()),
         ("package", "petril"),
@@ -66,11 +66,14 @@ fn suite(xml: &mut Xml<'_>, id: usize, name: &str, checked: &Checked<'_>, stamp:
 
 fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
     let mut property = |name: &str, value: &str| {
-        let attributes = [("name", printable(name)), ("value", printable(value))];
+        let attributes = [("name", line(name)), ("value", line(value))];
         let attributes = attributes.iter().map(|(name, value)| (*name, value.as_str()));
         xml.create_element("property").with_attributes(attributes).write_empty().map(drop)
     };
-    property("petril", env!("CARGO_PKG_VERSION"))?;
+    property("petril", env!("PETRIL_VERSION"))?;
+    for (what, text) in checked.provenance.pairs().iter().skip(1) {
+        property(what, text)?;
+    }
     property("file", checked.source.name())?;
     property("verdict", checked.report.verdict().word())?;
     for assumption in &checked.report.assumptions {
@@ -80,6 +83,9 @@ fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
         property("warning", warning)?;
     }
     for answer in checked.answers() {
+        if answer.recalled {
+            property(&format!("{}.known", answer.name), "from an earlier run")?;
+        }
         for tag in &answer.tags {
             property(&format!("{}.{}", answer.name, tag.name), tag.value.as_deref().unwrap_or("true"))?;
         }
@@ -88,7 +94,7 @@ fn properties(xml: &mut Xml<'_>, checked: &Checked<'_>) -> io::Result<()> {
 }
 
 fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) -> io::Result<()> {
-    let name = printable(&answer.name);
+    let name = line(&answer.name);
     let attributes = [("name", name.as_str()), ("classname", class), ("time", "0")];
     let element = xml.create_element("testcase").with_attributes(attributes);
     let (kind, body) = match &answer.outcome {
@@ -101,7 +107,7 @@ fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) 
             ("failure", body)
         }
     };
-    let reason = printable(&checked.reason(answer).unwrap_or_default());
+    let reason = line(&checked.reason(answer).unwrap_or_default());
     element
         .write_inner_content(|xml| {
             let attributes = [("type", answer.outcome.verdict().word()), ("message", reason.as_str())];
@@ -115,13 +121,13 @@ fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) 
 fn head(answer: &Answer) -> String {
     let mut head = String::new();
     let said = [answer.sentence.as_ref(), answer.words.as_ref(), Some(&answer.formula)];
-    head.extend(said.into_iter().flatten().map(|text| format!("{text}\n")));
+    head.extend(said.into_iter().flatten().map(|text| line(text) + "\n"));
     let tags = tags(answer).collect::<Vec<_>>().join(", ");
     if !tags.is_empty() {
-        head += &format!("[{tags}]\n");
+        head += &format!("[{}]\n", line(&tags));
     }
     if let Some(origin) = &answer.origin {
-        head += &format!("{}:{}:{}\n", origin.file, origin.line, origin.column);
+        head += &format!("{}:{}:{}\n", line(&origin.file), origin.line, origin.column);
     }
     head
 }
@@ -129,10 +135,10 @@ fn head(answer: &Answer) -> String {
 /// What holds and yet is worth a word.
 fn output(checked: &Checked<'_>) -> String {
     let holds = checked.answers().filter(|answer| answer.outcome.verdict() == Verdict::Holds);
-    holds.filter_map(|answer| Some(format!("{}: {}\n", answer.name, checked.reason(answer)?))).collect()
+    holds.filter_map(|answer| Some(format!("{}: {}\n", line(&answer.name), checked.reason(answer)?))).collect()
 }
 
 /// A text of several lines without what XML cannot hold.
 fn lines(text: &str) -> String {
-    text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
+    printable::lines(text).into_owned()
 }

@@ -7,7 +7,9 @@ mod checked;
 mod draft;
 mod escape;
 mod notes;
+mod provenance;
 mod stamp;
+mod table;
 
 pub mod andl;
 pub mod dot;
@@ -31,6 +33,7 @@ pub mod vcd;
 pub use checked::{Checked, Purpose, runs};
 pub use escape::unescaped;
 pub use notes::{Note, Notes};
+pub use provenance::{COMMIT, Provenance, VERSION};
 pub use stamp::Stamp;
 
 /// What a writer writes, as a text.

@@ -1,17 +1,15 @@
 //! Reports as tables (CSV, RFC 4180): one row for each requirement, check, assumption and warning; and the inputs of a run, one row a scan, as
 //! `petril simulate --inputs` reads them.
 
-use std::io;
-
 use super::checked::{Checked, runs, tags, why};
-use super::text;
+use super::{Provenance, table};
 use crate::semantics::{Role, VarId};
 use crate::translate::System;
 use crate::verdict::{Answer, Outcome, Trace};
 use crate::witness::firing_story;
 
 /// The columns of a report.
-const COLUMNS: [&str; 16] = [
+const COLUMNS: [&str; 21] = [
     "kind",
     "name",
     "verdict",
@@ -28,11 +26,17 @@ const COLUMNS: [&str; 16] = [
     "tags",
     "file",
     "line",
+    "known",
+    "tool",
+    "inputs",
+    "options",
+    "command",
 ];
 
 /// Writes a report. `length` counts scans, in the transition view firings; `repeats` is the one to which the last one leads
-/// back; `written_at` are the lines of source that wrote what breaks the requirement. What is assumed, and what was warned of,
-/// stands in the column `sentence` of rows of its own, behind the others.
+/// back; `written_at` are the lines of source that wrote what breaks the requirement; `known` is whether the answer is from an
+/// earlier run; `inputs` are the files that were read, each with its SHA-256, and `options` is that of all options. What is
+/// assumed, and what was warned of, stands in the column `sentence` of rows of its own, behind the others.
 #[must_use]
 pub fn write(checked: &Checked<'_>) -> String {
     let kinds = [("requirement", &checked.report.answers), ("check", &checked.report.checks)];
@@ -40,7 +44,7 @@ pub fn write(checked: &Checked<'_>) -> String {
     let rows = rows.map(|(kind, answer)| row(checked, kind, answer));
     let said = [("assumption", &checked.report.assumptions), ("warning", &checked.report.warnings)];
     let said = said.into_iter().flat_map(|(kind, texts)| texts.iter().map(move |text| said_row(kind, text)));
-    table(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows).chain(said))
+    table::write(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows).chain(said))
 }
 
 /// A row with a kind and a sentence.
@@ -88,6 +92,11 @@ fn row(checked: &Checked<'_>, kind: &str, answer: &Answer) -> Vec<String> {
         tags(answer).collect::<Vec<_>>().join("; "),
         answer.origin.as_ref().map(|origin| origin.file.clone()).unwrap_or_default(),
         number(answer.origin.as_ref().map(|origin| origin.line)),
+        answer.recalled.to_string(),
+        Provenance::tool(),
+        checked.provenance.files(),
+        checked.provenance.options.clone(),
+        checked.provenance.command_line(),
     ]
 }
 
@@ -126,15 +135,5 @@ pub fn inputs(system: &System, trace: &Trace) -> String {
             }
         }
     }
-    table(rows)
-}
-
-fn table(rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    text(|out| {
-        let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(out);
-        for row in rows {
-            writer.write_record(row).map_err(io::Error::other)?;
-        }
-        writer.flush()
-    })
+    table::write(rows)
 }

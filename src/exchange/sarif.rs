@@ -8,8 +8,10 @@ use serde_json::{Map, Value, json};
 
 use super::checked::{Checked, tags, why};
 use super::stamp::Stamp;
+use super::{COMMIT, VERSION};
 use crate::flat::{Hazard, value_text};
 use crate::logic::Origin;
+use crate::printable::line;
 use crate::semantics::Role;
 use crate::translate::TransitionRole;
 use crate::verdict::{Answer, Outcome, Trace, Verdict, Witness};
@@ -33,6 +35,8 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let mut properties = json!({
         "verdict": checked.report.verdict().word(),
         "assumptions": checked.report.assumptions,
+        "options": checked.provenance.options,
+        "known": checked.answers().filter(|answer| answer.recalled).map(|answer| &answer.name).collect::<Vec<_>>(),
         "warnings": checked.report.warnings,
     });
     properties["verdicts"] =
@@ -43,12 +47,18 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
         "runs": [{
             "tool": { "driver": {
                 "name": "Petril",
-                "version": env!("CARGO_PKG_VERSION"),
-                "semanticVersion": env!("CARGO_PKG_VERSION"),
+                "version": env!("PETRIL_VERSION"),
+                "semanticVersion": VERSION,
                 "rules": rules,
+                "properties": { "commit": COMMIT },
             }},
-            "invocations": [{ "executionSuccessful": true, "endTimeUtc": format!("{stamp}Z") }],
-            "artifacts": [{ "location": artifact(checked.source.name()), "sourceLanguage": "iec61131-3-il" }],
+            "invocations": [{
+                "executionSuccessful": true,
+                "endTimeUtc": format!("{stamp}Z"),
+                "commandLine": checked.provenance.command_line(),
+                "arguments": checked.provenance.command.get(1..).unwrap_or_default(),
+            }],
+            "artifacts": artifacts(checked),
             "columnKind": "unicodeCodePoints",
             "results": results,
             "properties": properties,
@@ -56,13 +66,29 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
     })
 }
 
+/// The program, then everything else that was read, with their hashes.
+fn artifacts(checked: &Checked<'_>) -> Vec<Value> {
+    let program = checked.source.name();
+    let mut files = vec![json!({ "location": artifact(program), "sourceLanguage": "iec61131-3-il" })];
+    for (file, hash) in &checked.provenance.inputs {
+        let hashes = json!({ "sha-256": hash });
+        if file == program {
+            files[0]["hashes"] = hashes;
+        } else {
+            files.push(json!({ "location": artifact(file), "hashes": hashes }));
+        }
+    }
+    files
+}
+
 fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
     let short = answer.sentence.as_ref().or(answer.words.as_ref()).unwrap_or(&answer.formula);
     let full: Vec<&str> = [answer.words.as_deref(), Some(answer.formula.as_str())].into_iter().flatten().collect();
+    let (short, full) = (line(short), line(&full.join(": ")));
     let mut rule = json!({
         "id": answer.name,
         "shortDescription": { "text": short },
-        "fullDescription": { "text": full.join(": ") },
+        "fullDescription": { "text": full },
         "defaultConfiguration": { "level": level(answer) },
         "properties": { "tags": tags(answer).collect::<Vec<_>>(), "formula": answer.formula },
     });
@@ -94,7 +120,7 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize
         return None;
     }
     let what = answer.sentence.as_ref().unwrap_or(&answer.formula);
-    let mut message = format!("{} is {}: {what}", answer.name, verdict.word());
+    let mut message = line(&format!("{} is {}: {what}", answer.name, verdict.word()));
     message.extend(checked.reason(answer).map(|reason| format!("\n{reason}")));
     let why = why(answer);
     message.extend(why.iter().flat_map(|why| checked.explained(why)).map(|sentence| format!("\n{sentence}")));
@@ -127,6 +153,9 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize
         "locations": [places.next().unwrap_or_else(nowhere)],
         "partialFingerprints": { "requirement/v1": answer.name },
     });
+    if answer.recalled {
+        result["properties"] = json!({ "known": true });
+    }
     let related: Vec<Value> = places
         .enumerate()
         .map(|(id, mut place)| {
@@ -204,10 +233,10 @@ fn steps(checked: &Checked<'_>, witness: &Witness, room: &mut usize) -> Vec<Valu
 }
 
 /// The piece of the program that a line of flat code comes from.
-fn at_line(checked: &Checked<'_>, line: usize, message: &str) -> Value {
+fn at_line(checked: &Checked<'_>, from: usize, message: &str) -> Value {
     let source = checked.source;
-    let mut region = json!({ "startLine": checked.source_line(line) });
-    if let Some(code) = checked.system.program.code.get(line) {
+    let mut region = json!({ "startLine": checked.source_line(from) });
+    if let Some(code) = checked.system.program.code.get(from) {
         let (last, end) = source.line_column(code.span.end);
         let (first, start) = source.line_column(code.span.start);
         region = json!({ "startLine": first, "startColumn": start, "endLine": last, "endColumn": end });
@@ -217,7 +246,7 @@ fn at_line(checked: &Checked<'_>, line: usize, message: &str) -> Value {
     }
     json!({
         "physicalLocation": { "artifactLocation": artifact(source.name()), "region": region },
-        "message": { "text": message },
+        "message": { "text": line(message) },
     })
 }
 

@@ -22,8 +22,8 @@ use std::fmt::Write as _;
 
 use quick_xml::escape::escape;
 
-use crate::draw::printable;
 use crate::net::{Net, TransitionId};
+use crate::printable;
 
 /// The most tokens a trace may tell of: each is an element of its own.
 const MAX_TOKENS: u64 = 10_000_000;
@@ -66,5 +66,5 @@ pub fn trace(
 }
 
 fn quoted(name: &str) -> String {
-    escape(printable(name)).into_owned()
+    escape(printable::line(name)).into_owned()
 }

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::flat::FlatProgram;
+use crate::printable;
 use crate::semantics::{Kind, Role, VarId};
 use crate::translate::System;
 use crate::witness::{Scan, ScanTrace};
@@ -72,10 +73,10 @@ pub fn write_rows(
     out
 }
 
-/// A text that nothing in it can end.
+/// A text on one line that nothing in it can end.
 fn comment(text: &str) -> String {
     let words: Vec<String> = text.split_whitespace().map(|word| word.replace("$end", "$ end")).collect();
-    format!("$comment {} $end\n", words.join(" "))
+    format!("$comment {} $end\n", printable::line(&words.join(" ")))
 }
 
 /// The line that gives a variable a value.

@@ -37,6 +37,7 @@ pub use marking::{Marking, NotSafe};
 pub use tokens::{Overflow, Tokens};
 pub use units::{Unit, Units};
 
+use crate::printable;
 use arcs::ArcTable;
 use names::Names;
 use serde::{Deserialize, Serialize};
@@ -114,6 +115,14 @@ pub struct Net {
 }
 
 impl Net {
+    /// The net with all names as people read them. Two nodes may have the same name then.
+    #[must_use]
+    pub fn into_printable(self) -> Self {
+        let name = printable::line(&self.name);
+        let (places, transitions) = (self.place_names.into_printable(), self.transition_names.into_printable());
+        Self { name, place_names: places, transition_names: transitions, ..self }
+    }
+
     fn empty(name: String) -> Self {
         let (place_names, transition_names) = (Names::default(), Names::default());
         Self { name, place_names, tokens: Vec::new(), transition_names, arcs: ArcTable::default() }

@@ -1,5 +1,7 @@
 //! Names, one after another in one text: a net may have millions.
 
+use crate::printable::{is_printable, line};
+
 /// The names of nodes, by position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Names {
@@ -12,6 +14,16 @@ impl Names {
     pub fn push(&mut self, name: &str) {
         self.text.push_str(name);
         self.ends.push(self.text.len());
+    }
+
+    /// The names as people read them.
+    pub fn into_printable(self) -> Self {
+        if self.text.chars().all(is_printable) {
+            return self;
+        }
+        let mut names = Self::default();
+        (0..self.ends.len()).for_each(|position| names.push(&line(self.get(position))));
+        names
     }
 
     pub fn get(&self, position: usize) -> &str {

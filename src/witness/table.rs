@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::printable;
+
 /// A column: its head, and the side its cells lean to.
 #[derive(Clone, Debug)]
 pub struct Column {
@@ -12,12 +14,12 @@ pub struct Column {
 impl Column {
     /// A column of values.
     pub fn right(head: impl Into<String>) -> Self {
-        Self { head: head.into(), left: false }
+        Self { head: printable::line(&head.into()), left: false }
     }
 
     /// A column of text.
     pub fn left(head: impl Into<String>) -> Self {
-        Self { head: head.into(), left: true }
+        Self { head: printable::line(&head.into()), left: true }
     }
 
     fn pad(&self, cell: &str, width: usize) -> String {
@@ -48,14 +50,14 @@ impl Table {
         Self { groups: groups.into_iter().filter(|group| !group.is_empty()).collect(), rows: Vec::new() }
     }
 
-    /// Adds a row: one cell for each column.
+    /// Adds a row: one cell for each column. Each is one line of printable text, whatever is in it.
     pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(Row::Cells(cells));
+        self.rows.push(Row::Cells(cells.iter().map(|cell| printable::line(cell)).collect()));
     }
 
     /// Adds a line of text across all columns.
     pub fn across(&mut self, text: String) {
-        self.rows.push(Row::Across(text));
+        self.rows.push(Row::Across(printable::line(&text)));
     }
 
     /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of

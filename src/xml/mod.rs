@@ -4,9 +4,11 @@
 mod attributes;
 mod stream;
 mod tree;
+mod written;
 
 pub(crate) use stream::{Element, Event, Piece, Stream, attribute_at};
 pub(crate) use tree::{Text, attribute, child, content, document, elements, tag, tag_span};
+pub(crate) use written::written;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;

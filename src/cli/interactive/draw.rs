@@ -7,6 +7,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
 use petril::flat::value_text;
+use petril::printable::is_printable;
 
 use super::screen::{Mode, Screen};
 use super::{diagram, overlay, source_pane, tokens, variables};
@@ -54,6 +55,15 @@ pub fn draw(frame: &mut Frame<'_>, screen: &Screen<'_>) {
         Mode::Help => overlay::help(frame),
         Mode::Plant(chosen) => overlay::plant(frame, screen, *chosen),
         _ => {}
+    }
+    hide_unprintable(frame);
+}
+
+/// Nothing that was drawn may hide or reorder what stands beside it.
+fn hide_unprintable(frame: &mut Frame<'_>) {
+    let cells = frame.buffer_mut().content.iter_mut();
+    for cell in cells.filter(|cell| !cell.symbol().chars().all(is_printable)) {
+        cell.set_symbol("\u{FFFD}");
     }
 }
 

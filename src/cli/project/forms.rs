@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use petril::exchange::{Checked, Stamp, junit, sarif};
+use petril::printable;
 use serde_json::Value;
 
 use super::run::Judged;
 use crate::cli::forms::{self, Forms, stamp};
-use crate::cli::{Failure, output, reason};
+use crate::cli::{Failure, output, reason, shown};
 
 /// Writes what was asked for about all programs that could be checked.
 pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
@@ -22,7 +23,7 @@ pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
     if let Some(file) = &forms.sarif {
         let documents = told.iter().map(|(_, checked, stamp)| sarif::write(checked, *stamp));
         if let Some(document) = documents.reduce(joined) {
-            output::write_text(file, &format!("{document}\n"))?;
+            output::write_text(file, &printable::json(&format!("{document}\n")))?;
         }
     }
     for (result, done) in done() {
@@ -57,7 +58,7 @@ fn file(folder: &Path, name: &str, ending: &str) -> Result<PathBuf, Failure> {
     path.push(ending);
     let path = PathBuf::from(path);
     let parent = path.parent().unwrap_or(folder);
-    let cannot = |error| Failure::Message(format!("cannot make the folder `{}`: {}", parent.display(), reason(&error)));
+    let cannot = |error| Failure::Message(format!("cannot make the folder `{}`: {}", shown(parent), reason(&error)));
     fs::create_dir_all(parent).map_err(cannot)?;
     Ok(path)
 }

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
+use petril::printable::line;
 
 use super::file::Entry;
 use crate::cli::Failure;
@@ -40,5 +41,5 @@ pub fn arguments(entry: &Entry, given: &[OsString]) -> Result<Check, Failure> {
     let words = words.chain([OsString::from("--"), entry.program.clone().into_os_string()]);
     let matches = command.try_get_matches_from(words);
     let check = matches.and_then(|matches| clap::FromArgMatches::from_arg_matches(&matches));
-    check.map_err(|error| Failure::Message(format!("{}: {}", entry.name, error.to_string().trim())))
+    check.map_err(|error| Failure::Message(format!("{}: {}", line(&entry.name), error.to_string().trim())))
 }

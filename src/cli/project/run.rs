@@ -10,6 +10,7 @@ use std::thread;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use petril::exchange::json;
+use petril::printable::line;
 use petril::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -48,13 +49,13 @@ pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
     let checks: Vec<(Check, Entry)> = checks.collect::<Result<_, Failure>>()?;
     use_threads(&command.limits)?;
     guard::listen();
-    let cache = if command.no_cache { None } else { Cache::open(Some(&path)) };
+    let cache = if command.no_cache { None } else { Cache::open(Some(&path), console) };
     let results = all(checks, cache.as_ref(), console);
     forms::write(&command.forms, &results)?;
     if command.json {
         console.print_json(document(&path, &results))?;
     } else {
-        console.print(&text(&path, &results, console))?;
+        console.print_report(&text(&path, &results, console), &console.provenance(), command.details)?;
     }
     Ok(worst(&results))
 }
@@ -65,8 +66,9 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
         return Ok(entries);
     }
     let pattern = |text: &String| {
-        let wrong =
-            |error: glob::PatternError| Failure::Message(format!("--only: `{text}` is no pattern: {}", error.msg));
+        let wrong = |error: glob::PatternError| {
+            Failure::Message(format!("--only: `{}` is no pattern: {}", line(text), error.msg))
+        };
         let pattern = glob::Pattern::new(text).map_err(wrong)?;
         if entries.iter().any(|entry| pattern.matches(&entry.name)) {
             return Ok(pattern);
@@ -75,7 +77,11 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
         let nearest = petril::diagnostic::nearest(text, names.iter().copied());
         let help =
             nearest.map_or_else(|| format!("there are {}", names.join(", ")), |n| format!("did you mean `{n}`?"));
-        Err(Failure::Message(format!("--only: no program of the project is called `{text}`\n  {help}")))
+        Err(Failure::Message(format!(
+            "--only: no program of the project is called `{}`\n  {}",
+            line(text),
+            line(&help)
+        )))
     };
     let patterns: Vec<glob::Pattern> = only.iter().map(pattern).collect::<Result<_, Failure>>()?;
     Ok(entries.into_iter().filter(|entry| patterns.iter().any(|pattern| pattern.matches(&entry.name))).collect())
@@ -89,18 +95,18 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     }
     sign_of_life::begin();
     let tally = Mutex::new(Tally { all: checks.len(), ..Tally::default() });
-    let (next, colour) = (AtomicUsize::new(0), console.colour());
+    let (next, colour, read) = (AtomicUsize::new(0), console.colour(), console.provenance().inputs);
     let (found, results) = mpsc::channel();
     // These threads wait for the ones that compute, of which there is one for each processor. A program that is checked never takes
     // up the work on another one in between.
     let workers = rayon::current_num_threads().min(checks.len());
     thread::scope(|scope| {
         for _ in 0..workers {
-            let (found, next, checks, bar, tally) = (found.clone(), &next, &checks, &bar, &tally);
+            let (found, next, checks, bar, tally, read) = (found.clone(), &next, &checks, &bar, &tally, &read);
             scope.spawn(move || {
                 while let Some((position, (arguments, entry))) = take(next, checks) {
-                    bar.set_message(entry.name.clone());
-                    let own = Console::holding(colour);
+                    bar.set_message(line(&entry.name));
+                    let own = Console::holding(colour, read.clone());
                     let watcher = Watcher::unseen(&arguments.limits);
                     let done =
                         watcher.and_then(|watcher| checked(arguments, &entry.program, cache, &own, &watcher, None));
@@ -125,7 +131,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
         let diagnostics = told.take_diagnostics();
         console.tell(told);
         if let Err(Failure::Message(message)) = &done {
-            console.error(&format!("{}: {message}", entry.name));
+            console.error(&format!("{}: {message}", line(&entry.name)));
         }
         Judged { name: entry.name, arguments, done, diagnostics }
     };
@@ -167,7 +173,7 @@ fn text(path: &Path, results: &[Judged], console: &Console) -> String {
         let Ok(Done { system, source, report, .. }) = done else { continue };
         if report.verdict() != Verdict::Holds {
             let text = Text { system, source, arguments, console };
-            out += &format!("\n{name}: {}\n{}", source.name(), text.failing(report));
+            out += &format!("\n{}\n{}", line(&format!("{name}: {}", source.name())), text.failing(report));
         }
     }
     out

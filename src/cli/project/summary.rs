@@ -8,6 +8,7 @@ use petril::witness::{Column, Table};
 use crate::cli::check::Done;
 use crate::cli::console::Console;
 use crate::cli::report::{counted, indent};
+use crate::cli::shown;
 
 /// What the table says of a program.
 pub struct Line<'a> {
@@ -49,7 +50,7 @@ fn count(answers: &[Answer], verdict: Verdict) -> usize {
 
 /// The table, and one sentence about all programs.
 pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
-    let mut out = format!("project {}, {}\n\n", path.display(), counted(lines.len(), "program"));
+    let mut out = format!("project {}, {}\n\n", shown(path), counted(lines.len(), "program"));
     let mut table = Table::new(vec![
         vec![Column::left("program")],
         vec![Column::right("requirements"), Column::right("hold"), Column::right("violated"), Column::right("unknown")],

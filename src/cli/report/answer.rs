@@ -22,14 +22,13 @@ impl Text<'_> {
             out += &self.told("known from an earlier run");
         }
         if let Some(remark) = &answer.remark {
-            out += &self.told(&format!("{}: {remark}", self.console.paint("mind", Colour::Doubtful)));
+            out += &self.doubtful("mind", remark);
         }
         match &answer.outcome {
             Outcome::Unknown(reason) => out += &self.told(&format!("because {reason}")),
             Outcome::Holds { vacuous, witness, example } => {
                 if let Some(vacuity) = vacuous {
-                    let doubt = self.console.paint("vacuously", Colour::Doubtful);
-                    out += &self.told(&format!("{doubt}: {}", vacuity.sentence()));
+                    out += &self.doubtful("vacuously", &vacuity.sentence());
                 }
                 if let Some(independence) = answer.independent {
                     out += &self.told(match independence {
@@ -83,6 +82,11 @@ impl Text<'_> {
     /// An indented paragraph.
     fn told(&self, text: &str) -> String {
         paragraph(INDENT, INDENT.len(), text, self.console.output_width())
+    }
+
+    /// An indented paragraph that begins with a word in the colour of doubt, which takes no columns.
+    fn doubtful(&self, word: &str, text: &str) -> String {
+        self.told(&format!("{word}: {text}")).replacen(word, &self.console.paint(word, Colour::Doubtful), 1)
     }
 
     /// The columns that are left beside the indent.

@@ -1,5 +1,7 @@
 //! Paragraphs and indents of a report.
 
+use petril::printable;
+
 /// What stands before everything that is told of an answer.
 pub const INDENT: &str = "    ";
 
@@ -9,12 +11,12 @@ pub fn indent(text: &str) -> String {
 }
 
 /// A paragraph in lines of at most so many characters, as far as its words allow; the first one begins with `first`, the others
-/// with as many blanks as `hang` has characters.
+/// with as many blanks as `hang` has characters. What the text is made of cannot begin a line or hide anything.
 pub fn paragraph(first: &str, hang: usize, text: &str, width: usize) -> String {
     let mut lines = vec![first.to_owned()];
     let mut used = first.chars().count();
     let mut is_empty = true;
-    for word in words(text) {
+    for word in words(&printable::line(text)) {
         let length = word.chars().count();
         if !is_empty && used + 1 + length > width {
             lines.push(" ".repeat(hang));

@@ -72,6 +72,7 @@ impl<'a> Printed<'a> {
             return Err(failure);
         }
         let opening = if opened.is_some() { String::new() } else { text.opening(report) };
-        self.console.print(&(opening + &text.closing(report, answers))).map(drop)
+        let text = opening + &text.closing(report, answers);
+        self.console.print_report(&text, &done.provenance, self.arguments.details).map(drop)
     }
 }

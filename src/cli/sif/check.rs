@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use petril::diagnostic::Diagnostic;
+use petril::printable::line;
 use petril::sif::sanity::{Counts, Doubt, Finding, check, counts};
 use petril::sif::{Scope, Specification, Stop, about};
 use serde_json::{Value, json};
@@ -48,7 +49,7 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
 /// What there is, and how many valuations each output has.
 fn text(specification: &Specification, counts: &[Vec<Counts>]) -> String {
     let mut out = String::new();
-    let title = specification.title.as_deref().map(|title| format!("{title}\n")).unwrap_or_default();
+    let title = specification.title.as_deref().map(|title| line(title) + "\n").unwrap_or_default();
     let sizes = [
         counted(specification.functions.len(), "function"),
         counted(specification.inputs().count(), "input"),
@@ -60,11 +61,11 @@ fn text(specification: &Specification, counts: &[Vec<Counts>]) -> String {
         let functions = specification.functions.iter().filter(|function| function.zone == Some(at)).count();
         let own = specification.restrictions.iter().filter(|other| other.scope == Scope::Zone(at)).count();
         let own = if own == 0 { String::new() } else { format!(", {}", counted(own, "restriction")) };
-        let title = zone.title.as_deref().map(|title| format!(" ({title})")).unwrap_or_default();
+        let title = zone.title.as_deref().map(|title| format!(" ({})", line(title))).unwrap_or_default();
         let _ = writeln!(out, "zone {}{title}: {}{own}", zone.name, counted(functions, "function"));
     }
     for (function, counts) in specification.functions.iter().zip(counts) {
-        let title = function.title.as_deref().map(|title| format!("  {title}")).unwrap_or_default();
+        let title = function.title.as_deref().map(|title| format!("  {}", line(title))).unwrap_or_default();
         let _ = writeln!(out, "\n{}{title}", function.name);
         for output in counts {
             out += &lines(specification, output);

@@ -4,15 +4,16 @@ use std::ffi::OsStr;
 use std::fs;
 
 use petril::exchange::sif::list;
+use petril::printable::line;
 
 use super::args::SifImport;
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
-use crate::cli::{Failure, Outcome, SUCCESS, output, reason};
+use crate::cli::{Failure, Outcome, SUCCESS, output, reason, shown};
 
 pub fn run(arguments: &SifImport, console: &Console) -> Outcome {
     let path = &arguments.list;
-    let name = path.display();
+    let name = shown(path);
     let ending = path.extension().and_then(OsStr::to_str).map(str::to_lowercase);
     let rows = if ending.as_deref() == Some("xlsx") {
         let cannot = |error: std::io::Error| Failure::Message(format!("cannot read `{name}`: {}", reason(&error)));
@@ -24,10 +25,10 @@ pub fn run(arguments: &SifImport, console: &Console) -> Outcome {
     } else {
         list::rows_of_text(source(path, MAX_TEXT, console)?.text())
     };
-    let rows = rows.map_err(|problem| Failure::Message(format!("{name}: {problem}")))?;
+    let rows = rows.map_err(|problem| Failure::Message(format!("{name}: {}", line(&problem))))?;
     let title = path.file_stem().and_then(OsStr::to_str).unwrap_or("list");
     let text = list::frame(title, &rows).map_err(|problems| {
-        let lines: Vec<String> = problems.iter().take(20).map(|problem| format!("{name}: {problem}")).collect();
+        let lines: Vec<String> = problems.iter().take(20).map(|problem| format!("{name}: {}", line(problem))).collect();
         Failure::Message(lines.join("\n"))
     })?;
     match &arguments.output {

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use petril::diagnostic::nearest;
 use petril::exchange::sif::plan_csv;
+use petril::printable::line;
 use petril::sif::{Criterion, Excluded, Limits, Plan, Specification, coverage_of, excluded, plan};
 use rayon::prelude::*;
 
 use crate::cli::console::Console;
 use crate::cli::input::{MAX_TEXT, source};
-use crate::cli::{Failure, guard};
+use crate::cli::{Failure, guard, shown};
 
 /// The positions of functions by their names; all of them if none is named.
 pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<usize>, Failure> {
@@ -23,7 +24,7 @@ pub fn functions(names: &[String], specification: &Specification) -> Result<Vec<
         position.ok_or_else(|| {
             let near = nearest(name, known().map(|function| function.name.as_str()));
             let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-            Failure::Message(format!("the specification has no function `{name}`{near}"))
+            Failure::Message(line(&format!("the specification has no function `{name}`{near}")))
         })
     });
     found.collect()
@@ -63,7 +64,7 @@ pub fn read(
         plan.coverage = coverage_of(specification, plan.function, &tests, limits);
     });
     if plans.is_empty() {
-        return Err(Failure::Message(format!("`{}` has no test of these functions", path.display())));
+        return Err(Failure::Message(format!("`{}` has no test of these functions", shown(path))));
     }
     Ok(plans)
 }

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use petril::exchange::proof as exchanged;
+use petril::printable::line;
 use petril::semantics::Role;
 use petril::sif::proof::{Answer, By, Confirmed, Failure, Form, Options, Outcome, Proof, Scan, Subject, prove};
 use petril::sif::{Kind, SignalId};
@@ -38,7 +39,7 @@ pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     if arguments.json {
         console.print_json(exchanged::proof(&subject, &proof, &program.source))?;
     } else {
-        console.print(&told.text())?;
+        console.print_report(&told.text(), &console.provenance(), false)?;
     }
     Ok(code(&proof))
 }
@@ -68,9 +69,9 @@ struct Told<'a> {
 impl Told<'_> {
     fn text(&self) -> String {
         let program = self.subject.program;
-        let from: Vec<&str> = self.sources.iter().map(Source::name).collect();
+        let from: Vec<String> = self.sources.iter().map(|source| line(source.name())).collect();
         let mut out =
-            format!("program `{}` from {}, against {}\n\n", program.name, self.source.name(), from.join(", "));
+            format!("program `{}` from {}, against {}\n\n", program.name, line(self.source.name()), from.join(", "));
         let longest = |text: &dyn Fn(&Answer) -> String| {
             self.proof.answers.iter().map(|answer| text(answer).chars().count()).max().unwrap_or(0)
         };
@@ -98,7 +99,7 @@ impl Told<'_> {
         }
         out += "\n";
         for (head, list) in [("assumed", &self.proof.assumptions), ("note", &self.proof.remarks)] {
-            list.iter().for_each(|text| out += &format!("{head}: {text}\n"));
+            list.iter().for_each(|text| out += &format!("{head}: {}\n", line(text)));
         }
         if self.proof.compared > 0 {
             let scans = counted(self.proof.compared, "scan");
@@ -194,10 +195,10 @@ impl Told<'_> {
 
     fn failure(&self, failure: Failure) -> String {
         match failure {
-            Failure::Hazard(line, hazard) => {
-                let span = self.subject.program.code[line].span;
+            Failure::Hazard(at, hazard) => {
+                let span = self.subject.program.code[at].span;
                 let (row, column) = self.source.line_column(span.start);
-                format!("{hazard} at {}:{row}:{column}", self.source.name())
+                format!("{hazard} at {}:{row}:{column}", line(self.source.name()))
             }
             Failure::Endless => "a scan that never ends".to_owned(),
             Failure::TooLong => "a scan that takes too long to wait for its end".to_owned(),

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use petril::exchange::sif::{Ran, Sheets, brief, html, json, junit, reasons, results_csv};
 use petril::flat::{FlatProgram, Tolerated};
+use petril::printable::line;
 use petril::sif::proof::{self, Options, Subject, prove};
 use petril::sif::{Ending, Fate, Hunt, Mutant, Runner, Specification, Start, hunt, mutants};
 use petril::verdict::Verdict;
@@ -71,6 +72,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         origin: origin.as_deref(),
         excluded: &excluded,
         run: Some(ran),
+        provenance: &console.provenance(),
     };
     if let Some(file) = &arguments.html {
         output::write_text(file, &html::write(&sheets))?;
@@ -84,7 +86,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     if arguments.json {
         console.print_json(json::document(&sheets))?;
     } else {
-        console.print(&text(&sheets, &ran, console))?;
+        console.print_report(&text(&sheets, &ran, console), sheets.provenance, false)?;
     }
     Ok(match is_passed {
         true if is_stopped => ExitCode::from(3),
@@ -121,7 +123,7 @@ fn decide(specification: &Specification, program: &FlatProgram, tolerated: Toler
 /// The whole report.
 fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
     let by = match (sheets.origin, sheets.plans.first()) {
-        (Some(file), _) => format!("from {file}"),
+        (Some(file), _) => format!("from {}", line(file)),
         (None, Some(plan)) => format!("by `{}`", plan.criterion.name()),
         (None, None) => String::new(),
     };
@@ -129,7 +131,7 @@ fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
         Start::PowerOn => "each from power-on",
         Start::Continued => "one after another without a restart",
     };
-    let (name, file) = (&ran.program().name, ran.source.name());
+    let (name, file) = (&ran.program().name, line(ran.source.name()));
     let mut out = format!("program `{name}` from {file}: tests {by}, {how}\n\n");
     if sheets.plans.len() <= MAX_TOLD {
         out += &summary(sheets, ran).within(console.output_width());
@@ -215,12 +217,12 @@ fn told(hunt: &Hunt, ran: &Ran<'_>) -> String {
     let left: Vec<_> =
         hunt.mutants.iter().filter(|(_, fate)| !matches!(fate, Fate::Found(..) | Fate::Equivalent)).collect();
     for (mutant, fate) in left.iter().take(MAX_TOLD) {
-        let line = ran.source.line_of(ran.program().code[mutant.line].span.start);
+        let at = ran.source.line_of(ran.program().code[mutant.line].span.start);
         let why = match fate {
             Fate::Undecided(why) => format!("not decided: {why}"),
             _ => "missed".to_owned(),
         };
-        out += &format!("{}:{line}: {} ({why})\n", ran.source.name(), mutant.fault);
+        out += &format!("{}: {} ({why})\n", line(&format!("{}:{at}", ran.source.name())), line(&mutant.fault));
     }
     if left.len() > MAX_TOLD {
         out += &format!("… and {} more\n", left.len() - MAX_TOLD);

@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 use petril::exchange::sif::{Sheets, html, json, plan_csv};
+use petril::printable::line;
 use petril::sif::{Criterion, Limits, Plan, Specification, Study};
 use petril::witness::{Column, Table};
 use rayon::prelude::*;
@@ -43,6 +44,7 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
         origin: origin.as_deref(),
         excluded: &excluded,
         run: None,
+        provenance: &console.provenance(),
     };
     if let Some(file) = &arguments.html {
         output::write_text(file, &html::write(&sheets))?;
@@ -67,10 +69,10 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
 fn text(sheets: &Sheets<'_>, plan: &Plan, console: &Console) -> String {
     let specification = sheets.specification;
     let function = &specification.functions[plan.function];
-    let title = function.title.as_ref().map(|title| format!(" \"{title}\"")).unwrap_or_default();
+    let title = function.title.as_ref().map(|title| format!(" \"{}\"", line(title))).unwrap_or_default();
     let tests = counted(plan.tests.len(), "test");
     let how = match (sheets.origin, plan.is_smallest && plan.criterion != Criterion::All) {
-        (Some(file), _) => format!("from {file}"),
+        (Some(file), _) => format!("from {}", line(file)),
         (None, true) if matches!(plan.criterion, Criterion::Faults | Criterion::Pairs) => {
             format!("by `{}`, and no fewer would do", plan.criterion.name())
         }

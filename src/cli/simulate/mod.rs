@@ -8,6 +8,7 @@ use std::ffi::OsStr;
 use std::process::ExitCode;
 
 use petril::logic::{Bound, View};
+use petril::printable::line;
 use petril::simulate::{Session, condition};
 use petril::source::Source;
 use petril::translate::System;
@@ -18,7 +19,7 @@ use super::console::Console;
 use super::input::Program;
 use super::interactive::Screen;
 use super::report::counted;
-use super::{Failure, Outcome, SUCCESS, guard, input, interactive, output};
+use super::{Failure, Outcome, SUCCESS, guard, input, interactive, output, shown};
 use scans::{Run, scans};
 use steering::Steering;
 
@@ -53,19 +54,19 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
         .map_err(|problem| refused(arguments, &problem))?;
     if let Some(recorded) = steering.recorded() {
-        console.message(&format!("this is the run of `{}`\n", recorded.requirement));
+        console.message(&format!("this is the run of `{}`\n", line(&recorded.requirement)));
     }
     print(arguments, format, &system, &source, &made, console)?;
     let notes = steering.recorded().into_iter().flat_map(|recorded| &recorded.notes);
     for note in notes.filter(|note| note.last < made.trace.scans.len()) {
-        console.message(&format!("{}\n", note.sentence(View::Scan)));
+        console.message(&format!("{}\n", line(&note.sentence(View::Scan))));
     }
     Ok(tell(arguments, &system, &source, &made, console))
 }
 
 /// A run that is not the one of the report.
 fn refused(arguments: &Simulate, problem: &str) -> Failure {
-    let report = arguments.replay.as_ref().map(|path| format!("{}: ", path.display()));
+    let report = arguments.replay.as_ref().map(|path| format!("{}: ", shown(path)));
     Failure::Message(report.unwrap_or_default() + problem)
 }
 
@@ -146,13 +147,15 @@ fn print(
 fn tell(arguments: &Simulate, system: &System, source: &Source, run: &Run, console: &Console) -> ExitCode {
     let scans = run.trace.scans.len();
     match (&arguments.until, run.failure) {
-        (Some(condition), _) if run.is_met => console.message(&format!("after scan {scans}: `{condition}` is true\n")),
+        (Some(condition), _) if run.is_met => {
+            console.message(&format!("after scan {scans}: `{}` is true\n", line(condition)));
+        }
         (_, Some(failure)) => {
             console.error(&show::explain(failure, scans, &system.program, source));
             return ExitCode::from(1);
         }
         (Some(condition), None) => {
-            console.message(&format!("`{condition}` is true after none of the {scans} scans\n"));
+            console.message(&format!("`{}` is true after none of the {scans} scans\n", line(condition)));
             return ExitCode::from(1);
         }
         (None, None) => {}

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use serde_json::{Value, json};
 
 use super::runs::{Runs, shown};
+use crate::exchange::VERSION;
 use crate::exchange::checked::{Checked, runs, tags, why};
 use crate::exchange::stamp::Stamp;
 use crate::explore::Stop;
@@ -19,7 +20,7 @@ const MAX_SOURCE: usize = 400_000;
 
 /// The document of a report.
 pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
-    let Checked { system, source, report } = *checked;
+    let Checked { system, source, report, provenance } = *checked;
     let program = &system.program;
     let mut runs = Runs::new(*checked);
     // Room is for what is violated first.
@@ -48,7 +49,8 @@ pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let code: Vec<Value> =
         (0..program.end()).map(|line| json!([checked.source_line(line), checked.instruction(line)])).collect();
     json!({
-        "petril": env!("CARGO_PKG_VERSION"),
+        "petril": VERSION,
+        "provenance": provenance.pairs(),
         "made": format!("{stamp}Z"),
         "took": stamp.took,
         "program": program.name,
@@ -131,6 +133,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
         "name": answer.name,
         "kind": kind,
         "verdict": answer.outcome.verdict().word(),
+        "known": answer.recalled,
         "vacuous": matches!(answer.outcome, Outcome::Holds { vacuous: Some(_), .. }),
         "formula": answer.formula,
         "runs": runs(answer).map(|(purpose, witness)| all.run(answer, purpose, witness)).collect::<Vec<_>>(),

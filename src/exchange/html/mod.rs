@@ -12,10 +12,12 @@ mod runs;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use quick_xml::escape::escape;
+use serde_json::Value;
 use sha2::{Digest as _, Sha256};
 
 use super::checked::Checked;
 use super::stamp::Stamp;
+use crate::printable;
 
 /// The frame, with a name in double braces for each of its parts.
 const PAGE: &str = include_str!("page.html");
@@ -42,7 +44,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
     let title = format!("{}: {}", checked.system.program.name, checked.report.verdict().word());
     let parts = [
         ("policy", policy(&style, &script)),
-        ("title", escape(&title).into_owned()),
+        ("title", markup(&title)),
         ("style", style),
         ("fallback", fallback::fallback(checked)),
         ("data", data(checked, stamp)),
@@ -69,8 +71,27 @@ fn policy(style: &str, script: &str) -> String {
     )
 }
 
-/// The document, with no character in it that could end the element it stands in.
+/// A text without markup, on its own lines.
+fn markup(text: &str) -> String {
+    escape(printable::lines(text)).into_owned()
+}
+
+/// The document, with no character in it that could end the element it stands in. All it says is for people.
 fn data(checked: &Checked<'_>, stamp: Stamp) -> String {
-    let text = document::document(checked, stamp).to_string();
+    let mut document = document::document(checked, stamp);
+    make_printable(&mut document);
+    let text = document.to_string();
     text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
+}
+
+/// Every text of a document on one line. Tabs, which sources are indented by, stay.
+fn make_printable(value: &mut Value) {
+    match value {
+        Value::String(text) if !text.chars().all(printable::is_printable) => {
+            *text = text.split('\t').map(printable::line).collect::<Vec<_>>().join("\t");
+        }
+        Value::Array(values) => values.iter_mut().for_each(make_printable),
+        Value::Object(members) => members.values_mut().for_each(make_printable),
+        _ => {}
+    }
 }

@@ -40,6 +40,12 @@ function header() {
     html("p", { class: "meta" }, html("span", {}, data.file), html("span", {}, when), html("span", {}, `Petril ${data.petril}`)));
 }
 
+function provenance() {
+  const row = ([what, text]) => [html("dt", {}, what), html("dd", {}, html("code", {}, text))];
+  return html("section", { class: "panel wide", "aria-label": "Where this report comes from" },
+    html("h2", {}, "Provenance"), html("dl", { class: "provenance" }, data.provenance.flatMap(row)));
+}
+
 function facts() {
   const [states, steps, depth, how] = data.explored;
   const item = (n, what) => html("div", { class: "fact" }, html("b", {}, n.toLocaleString("en")), html("span", {}, what));
@@ -131,6 +137,7 @@ function row(answer, i) {
   const panel = html("div", { class: "answer-panel", id: `panel-${i}`, role: "region", "aria-label": answer.name, hidden: true });
   const opener = html("button", { type: "button", class: "answer-head", "aria-expanded": "false", "aria-controls": `panel-${i}` },
     answer.vacuous ? badge("unknown", "vacuous") : badge(answer.verdict),
+    answer.known && html("span", { class: "known" }, "known from an earlier run"),
     html("span", { class: "answer-text" },
       html("span", { class: "answer-name" }, answer.name),
       html("span", { class: answer.sentence ? "answer-sentence" : "answer-sentence formula" }, answer.sentence || answer.words || answer.formula)),
@@ -208,7 +215,7 @@ const list = (name, title, answers) => answers.length > 0 && [
 report.append(
   header(),
   html("main", {}, facts(), filters(), found,
-    list("requirement", "Requirements", requirements), list("check", "Checked without asking", checks)),
+    list("requirement", "Requirements", requirements), list("check", "Checked without asking", checks), provenance()),
   html("footer", {}, html("p", {}, "Every run on this page was replayed by the interpreter and by the token game on the net, which agree on every bit. ",
     "Steps: ", html("kbd", {}, "←"), " ", html("kbd", {}, "→"), ", scans: ", html("kbd", {}, "Shift"), " with them.")));
 

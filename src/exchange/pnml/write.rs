@@ -5,13 +5,17 @@ use std::collections::HashSet;
 use std::io;
 
 use quick_xml::Writer;
+use quick_xml::events::attributes::Attribute;
 use quick_xml::events::{BytesDecl, BytesText, Event};
+use quick_xml::name::QName;
 
 use super::read::NET_TYPE;
-use crate::draw::{Point, Positions, printable};
+use crate::draw::{Point, Positions};
 use crate::exchange::notes::{Note, Notes};
 use crate::exchange::text;
 use crate::net::{Net, PlaceId, Units};
+use crate::printable;
+use crate::xml::written;
 
 type Xml<'o> = Writer<&'o mut dyn io::Write>;
 
@@ -31,8 +35,8 @@ pub struct Extras<'e> {
 /// Writes a net on one page, a read arc as a loop of two arcs. The readable names are labels; without other ids, those of the
 /// nodes are `p0`, `p1`, … and `t0`, `t1`, ….
 ///
-/// Reading it back gives the same net, unless a name begins or ends with blanks or holds control characters, which XML
-/// cannot keep.
+/// Reading it back gives the same net, unless a name begins or ends with blanks or holds a control character that XML cannot
+/// keep; other characters that are not printable are references.
 ///
 /// # Errors
 /// Those of the output.
@@ -114,9 +118,10 @@ fn on(mut arcs: impl Iterator<Item = (PlaceId, u64)>, place: PlaceId) -> u64 {
 }
 
 fn label(xml: &mut Xml<'_>, name: &str, text: &str) -> io::Result<()> {
-    let text = printable(text);
+    let text = written(text);
     let element = xml.create_element(name);
-    let write = |xml: &mut Xml<'_>| xml.create_element("text").write_text_content(BytesText::new(&text)).map(drop);
+    let write =
+        |xml: &mut Xml<'_>| xml.create_element("text").write_text_content(BytesText::from_escaped(&text)).map(drop);
     element.write_inner_content(write).map(drop)
 }
 
@@ -134,7 +139,11 @@ fn tool_section(xml: &mut Xml<'_>, note: Option<&Note>) -> io::Result<()> {
     let Some(note) = note else { return Ok(()) };
     let element = xml.create_element("toolspecific").with_attributes([("tool", "petril"), ("version", "0.1")]);
     let write = |xml: &mut Xml<'_>| {
-        let pairs = note.iter().map(|(word, value)| (*word, value.as_str()));
+        let texts: Vec<String> = note.iter().map(|(_, value)| written(value)).collect();
+        let pairs = note
+            .iter()
+            .zip(&texts)
+            .map(|((word, _), text)| Attribute { key: QName(word), value: text.as_str().into() });
         xml.create_element("stands-for").with_attributes(pairs).write_empty().map(drop)
     };
     element.write_inner_content(write).map(drop)
@@ -148,15 +157,17 @@ fn unit_section(xml: &mut Xml<'_>, net: &Net, ids: &Ids<'_>, units: &Units) -> i
         let sizes = [count(net.places().len()), count(net.transitions().len()), count(net.arc_count())];
         let sizes = ["places", "transitions", "arcs"].into_iter().zip(sizes.iter().map(String::as_str));
         xml.create_element("size").with_attributes(sizes).write_empty()?;
-        let (all, root) = (count(units.units.len()), units.units[units.root].id.as_str());
+        let (all, root) = (count(units.units.len()), printable::line(&units.units[units.root].id));
         let safe = if units.safe { "true" } else { "false" };
         let element = xml.create_element("structure");
-        let element = element.with_attributes([("units", all.as_str()), ("root", root), ("safe", safe)]);
+        let element = element.with_attributes([("units", all.as_str()), ("root", root.as_str()), ("safe", safe)]);
         element.write_inner_content(|xml| {
             for unit in &units.units {
                 let places = words(unit.places.iter().map(|place| ids.place(place.index())).collect());
-                let subunits = words(unit.subunits.iter().map(|&unit| Cow::from(&units.units[unit].id)).collect());
-                let element = xml.create_element("unit").with_attribute(("id", unit.id.as_str()));
+                let subunits = words(
+                    unit.subunits.iter().map(|&unit| Cow::from(printable::line(&units.units[unit].id))).collect(),
+                );
+                let element = xml.create_element("unit").with_attribute(("id", printable::line(&unit.id).as_str()));
                 element.write_inner_content(|xml| {
                     for (name, text) in [("places", &places), ("subunits", &subunits)] {
                         let element = xml.create_element(name);

@@ -8,8 +8,8 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use super::told::{brief, reasons};
 use super::{Ran, Sheets};
-use crate::draw::printable;
 use crate::exchange::{Stamp, text};
+use crate::printable::line;
 use crate::sif::{Plan, PlanRun, Test, TestRun};
 
 type Xml<'o> = Writer<&'o mut Vec<u8>>;
@@ -39,7 +39,7 @@ fn suite(
     stamp: Stamp,
 ) -> io::Result<()> {
     let count = |word| run.tests.iter().filter(|test| test.ending.word() == word).count().to_string();
-    let name = printable(&sheets.specification.functions[plan.function].name);
+    let name = line(&sheets.specification.functions[plan.function].name);
     let time = format!("{:.3}", if id == 0 { stamp.took.max(0.0) } else { 0.0 });
     let attributes = [
         ("name", name.as_str()),
@@ -67,14 +67,14 @@ fn suite(
 fn properties(xml: &mut Xml<'_>, sheets: &Sheets<'_>, ran: &Ran<'_>, plan: &Plan) -> io::Result<()> {
     let files: Vec<&str> = sheets.sources.iter().map(crate::source::Source::name).collect();
     let said = [
-        ("petril", env!("CARGO_PKG_VERSION").to_owned()),
+        ("petril", env!("PETRIL_VERSION").to_owned()),
         ("specification", files.join(", ")),
         ("program", ran.source.name().to_owned()),
         ("criterion", super::told::made_by(sheets, plan)),
         ("start", ran.mode().to_owned()),
     ];
-    for (name, value) in said {
-        let value = printable(&value);
+    for (name, value) in said.into_iter().chain(sheets.provenance.pairs().into_iter().skip(1)) {
+        let value = line(&value);
         xml.create_element("property").with_attributes([("name", name), ("value", value.as_str())]).write_empty()?;
     }
     Ok(())
@@ -89,7 +89,7 @@ fn case(
     test: &Test,
     made: &TestRun,
 ) -> io::Result<()> {
-    let name = printable(&format!("test {}: {}", number + 1, brief(sheets, test)));
+    let name = line(&format!("test {}: {}", number + 1, brief(sheets, test)));
     let attributes = [("name", name.as_str()), ("classname", class), ("time", "0")];
     let element = xml.create_element("testcase").with_attributes(attributes);
     let kind = match made.ending.word() {
@@ -97,8 +97,8 @@ fn case(
         "failed" => "failure",
         _ => "error",
     };
-    let reason = printable(&reasons(sheets, ran, made).join("; "));
-    let body = printable(&test.purpose.join("; "));
+    let reason = line(&reasons(sheets, ran, made).join("; "));
+    let body = line(&test.purpose.join("; "));
     element
         .write_inner_content(|xml| {
             let attributes = [("type", made.ending.word()), ("message", reason.as_str())];

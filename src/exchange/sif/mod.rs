@@ -9,6 +9,7 @@ pub mod list;
 pub mod plan_csv;
 pub mod results_csv;
 
+use super::Provenance;
 use crate::flat::FlatProgram;
 use crate::sif::{Excluded, Hunt, Plan, PlanRun, Runner, Specification, Start};
 use crate::source::Source;
@@ -28,6 +29,8 @@ pub struct Sheets<'a> {
     pub excluded: &'a [Excluded],
     /// What became of the tests, if they were run.
     pub run: Option<Ran<'a>>,
+    /// Where all this comes from.
+    pub provenance: &'a Provenance,
 }
 
 /// A run of tests.

@@ -4,13 +4,11 @@
 //! The first columns are `test`, `function`, `criterion` and `purpose`; each further one is a signal. Inputs that have no
 //! column are at rest. Where an output has no value, the specification says what is expected.
 
-use std::io;
-
 use fixedbitset::FixedBitSet;
 
 use super::Sheets;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::exchange::text;
+use crate::exchange::table::{self, uncovered};
 use crate::sif::{Coverage, Criterion, Kind, Plan, SignalId, Specification, Test};
 use crate::source::{Source, Span};
 use crate::syntax::ast::key;
@@ -49,18 +47,7 @@ pub fn write(sheets: &Sheets<'_>) -> String {
             row
         })
     });
-    table(std::iter::once(head).chain(rows))
-}
-
-/// Rows as CSV.
-pub fn table(rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    text(|out| {
-        let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(out);
-        for row in rows {
-            writer.write_record(row).map_err(io::Error::other)?;
-        }
-        writer.flush()
-    })
+    table::write(std::iter::once(head).chain(rows))
 }
 
 /// What a column means.
@@ -224,7 +211,7 @@ fn row(
             Column::Fixed(2) => {
                 criterion = Criterion::ALL.into_iter().find(|one| one.name() == cell).unwrap_or(criterion);
             }
-            Column::Fixed(3) if !cell.is_empty() => purpose = cell.split("; ").map(str::to_owned).collect(),
+            Column::Fixed(3) if !cell.is_empty() => purpose = uncovered(cell).split("; ").map(str::to_owned).collect(),
             Column::Fixed(_) | Column::Unknown => {}
             Column::Signal(signal) => {
                 let is_input = specification.definition(*signal).is_none();

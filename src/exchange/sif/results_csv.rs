@@ -1,11 +1,12 @@
 //! What became of tests as a table (CSV): one row for each.
 
-use super::plan_csv::table;
 use super::told::{brief, error_line, reasons};
 use super::{Ran, Sheets};
+use crate::exchange::{Provenance, table};
 
 /// The columns.
-const COLUMNS: [&str; 8] = ["function", "test", "result", "start", "scans", "inputs", "reason", "line"];
+const COLUMNS: [&str; 12] =
+    ["function", "test", "result", "start", "scans", "inputs", "reason", "line", "tool", "files", "options", "command"];
 
 /// Writes the results of a run.
 #[must_use]
@@ -21,8 +22,12 @@ pub fn write(sheets: &Sheets<'_>, ran: &Ran<'_>) -> String {
                 brief(sheets, test),
                 reasons(sheets, ran, made).join("; "),
                 error_line(ran, made).map(|line| line.to_string()).unwrap_or_default(),
+                Provenance::tool(),
+                sheets.provenance.files(),
+                sheets.provenance.options.clone(),
+                sheets.provenance.command_line(),
             ]
         })
     });
-    table(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows))
+    table::write(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows))
 }

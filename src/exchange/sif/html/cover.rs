@@ -3,6 +3,7 @@
 use sha2::{Digest as _, Sha256};
 
 use super::markup::{code, counted, escaped, row, table};
+use crate::exchange::Provenance;
 use crate::exchange::sif::told::made_by;
 use crate::exchange::sif::{Ran, Sheets};
 use crate::sif::{Criterion, Start};
@@ -19,7 +20,9 @@ pub fn cover(sheets: &Sheets<'_>, title: &str) -> String {
     fact("Tests by", by(sheets));
     let functions = counted(sheets.plans.len(), "function");
     fact("Contents", format!("{functions}, {}", counted(sheets.tests(), "test")));
-    fact("Made with", format!("Petril {}", env!("CARGO_PKG_VERSION")));
+    fact("Made with", escaped(&Provenance::tool()));
+    fact("Command", code(&sheets.provenance.command_line()));
+    fact("Options", format!("<small>SHA-256 <code>{}</code></small>", escaped(&sheets.provenance.options)));
     let blanks = ["Installation", "Program version", "Place", "Date", "Tester", "Signature", "Witness", "Signature"];
     let blanks = blanks.map(|name| format!("<div class=\"blank\"><span>{name}</span></div>\n")).concat();
     let result = sheets.run.as_ref().map(result).unwrap_or_default();

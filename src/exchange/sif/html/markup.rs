@@ -2,12 +2,12 @@
 
 use quick_xml::escape::escape;
 
-use crate::draw::printable;
+use crate::printable;
 
 /// A text on one line, with nothing in it that could be read as markup.
 pub fn escaped(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    escape(printable(&line)).into_owned()
+    escape(printable::line(&line)).into_owned()
 }
 
 /// A name or formula.

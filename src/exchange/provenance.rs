@@ -1,0 +1,83 @@
+//! Where a report comes from: the tool, the command, and the hashes of everything that was read.
+
+use serde_json::{Value, json};
+
+use crate::printable::line;
+
+/// Version of this program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Commit it was built from, in full, with `-modified` behind it if there were changes beside it, or `-debug` where nobody looked
+/// for them; `None` if it is not known.
+pub const COMMIT: Option<&str> = if env!("PETRIL_COMMIT").is_empty() { None } else { Some(env!("PETRIL_COMMIT")) };
+
+/// What a report rests on beside its answers. The library reads no files and no command line; whoever asks for a report does.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Provenance {
+    /// The words of the command line.
+    pub command: Vec<String>,
+    /// Each file that was read, in the order of reading, with its SHA-256 in hexadecimal digits.
+    pub inputs: Vec<(String, String)>,
+    /// SHA-256 of all options as they were understood, in hexadecimal digits.
+    pub options: String,
+}
+
+impl Provenance {
+    /// Name, version and commit of the program.
+    #[must_use]
+    pub fn tool() -> String {
+        format!("petril {}", env!("PETRIL_VERSION"))
+    }
+
+    /// The command as a shell takes it, on one line.
+    #[must_use]
+    pub fn command_line(&self) -> String {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+        let quoted = |word: &String| match word.chars().all(is_plain) && !word.is_empty() {
+            true => word.clone(),
+            false => format!("'{}'", line(word).replace('\'', "'\\''")),
+        };
+        self.command.iter().map(quoted).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The files that were read, each with its hash, on one line.
+    #[must_use]
+    pub fn files(&self) -> String {
+        let inputs = self.inputs.iter().map(|(file, hash)| format!("{} {hash}", line(file)));
+        inputs.collect::<Vec<_>>().join("; ")
+    }
+
+    /// Everything as data.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let input = |(file, hash): &(String, String)| json!({ "file": file, "sha256": hash });
+        json!({
+            "tool": "petril",
+            "version": VERSION,
+            "commit": COMMIT,
+            "command": self.command,
+            "inputs": self.inputs.iter().map(input).collect::<Vec<_>>(),
+            "options": self.options,
+        })
+    }
+
+    /// Everything as pairs of a word and a text on one line.
+    #[must_use]
+    pub fn pairs(&self) -> Vec<(&'static str, String)> {
+        let inputs = self.inputs.iter().map(|(file, hash)| ("input", format!("{}, sha256 {hash}", line(file))));
+        let made = [("made by", Self::tool()), ("command", self.command_line())];
+        made.into_iter().chain(inputs).chain([("options", format!("sha256 {}", self.options))]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_can_be_given_again() {
+        let words = ["petril", "check", "a b.il", "-r", "AG (it's)", "", "x\n"].map(str::to_owned).to_vec();
+        let made = Provenance { command: words, ..Provenance::default() };
+        assert_eq!(made.command_line(), "petril check 'a b.il' -r 'AG (it'\\''s)' '' 'x\\n'");
+    }
+}
