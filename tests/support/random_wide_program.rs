@@ -289,7 +289,9 @@ impl Making<'_, '_> {
             text += "VAR_EXTERNAL limit : USINT; END_VAR\nVAR CONSTANT few : USINT := 2; END_VAR\n\
                      VAR RETAIN kept : USINT := few; END_VAR\n";
             let small = Of::Plain(Type::new(Kind::Unsigned, 8));
-            [("limit", false), ("few", false), ("kept", true)].map(|(name, written)| scope.entry(name, small, written));
+            for (name, written) in [("limit", false), ("few", false), ("kept", true)] {
+                scope.entry(name, small, written);
+            }
         }
         let mut compared = String::new();
         if self.choices.pick(3) == 0 {

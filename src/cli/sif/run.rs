@@ -18,7 +18,7 @@ use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Failure, Outcome, SUCCESS, forms, guard, output, progress};
+use crate::cli::{Outcome, SUCCESS, forms, guard, output, progress};
 
 /// So many tests or faults are told one by one.
 const MAX_TOLD: usize = 40;
