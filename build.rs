@@ -1,4 +1,4 @@
-//! Names the commit that the program is built from, for `--version` and reports; nothing if it is not known.
+//! Names the commit that the program is built from, for `--version` and reports; nothing if it is not known, and in debug builds.
 
 use std::env;
 use std::fs;
@@ -11,15 +11,21 @@ const MADE_OF: [&str; 6] = ["src", "grammar", "docs/codes", "Cargo.toml", "Cargo
 fn main() {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     println!("cargo:rerun-if-changed={}", root.join("build.rs").display());
-    let commit = of_repository(&root).or_else(|| of_package(&root)).unwrap_or_default();
     let version = env::var("CARGO_PKG_VERSION").unwrap_or_default();
-    let named = if commit.is_empty() { version } else { format!("{version} ({commit})") };
+    // To look for changes would build everything anew with every commit.
+    let is_release = env::var("PROFILE").is_ok_and(|profile| profile == "release");
+    let commit = if is_release { of_repository(&root).or_else(|| of_package(&root)) } else { None };
+    let named = match &commit {
+        Some(commit) => format!("{version} ({commit})"),
+        None if is_release => version,
+        None => format!("{version} (debug build)"),
+    };
+    let commit = commit.unwrap_or_default();
     println!("cargo:rustc-env=PETRIL_COMMIT={commit}");
     println!("cargo:rustc-env=PETRIL_VERSION={named}");
 }
 
-/// The commit of the repository that this folder is the root of. Behind it stands `-modified` if something is not committed, and
-/// `-debug` in a debug build: to look for changes again each time would build everything anew with every one of them.
+/// The commit of the repository that this folder is the root of. Behind it stands `-modified` if something is not committed.
 fn of_repository(root: &Path) -> Option<String> {
     let top = fs::canonicalize(git(root, &["rev-parse", "--show-toplevel"])?).ok()?;
     if top != fs::canonicalize(root).ok()? {
@@ -33,9 +39,6 @@ fn of_repository(root: &Path) -> Option<String> {
         }
     }
     let commit = git(root, &["rev-parse", "HEAD"])?;
-    if env::var("PROFILE").is_ok_and(|profile| profile != "release") {
-        return Some(format!("{commit}-debug"));
-    }
     for path in MADE_OF.iter().map(|name| root.join(name)).filter(|path| path.exists()) {
         println!("cargo:rerun-if-changed={}", path.display());
     }

@@ -7,8 +7,8 @@ use crate::printable::line;
 /// Version of this program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Commit it was built from, in full, with `-modified` behind it if there were changes beside it, or `-debug` where nobody looked
-/// for them; `None` if it is not known.
+/// Commit it was built from, in full, with `-modified` behind it if there were changes beside it; `None` if it is not known, and in a
+/// debug build.
 pub const COMMIT: Option<&str> = if env!("PETRIL_COMMIT").is_empty() { None } else { Some(env!("PETRIL_COMMIT")) };
 
 /// What a report rests on beside its answers. The library reads no files and no command line; whoever asks for a report does.

@@ -136,7 +136,7 @@ impl<'p> Run<'p> {
         let wanted = self.demand(instruction, hazard)?;
         let facts = self.facts(&sources);
         let facts = if facts.is_empty() { facts } else { format!(": {facts}") };
-        let place = format!("In scan {}, line {} (`{}`)", self.scan + 1, line + 1, self.words(line));
+        let place = format!("In scan {}, `{}`", self.scan + 1, self.words(line));
         Some((format!("{place} {wanted}{facts}"), sources))
     }
 
