@@ -261,7 +261,7 @@ fn json_keeps_every_scan_and_junit_is_folded() {
     assert!(scans.iter().all(|scan| scan["memory"]["t.CLOCK"].is_number()), "{scans:#?}");
     let junit = fs::read_to_string(folder.path().join("r.xml")).unwrap();
     assert!(junit.contains("… 23 scans: t.ET T#20ms → T#480ms, n 2 → 25 …"), "{junit}");
-    let inputs = fs::read_to_string(folder.path().join("runs/AG !q.csv".replace(' ', "_").replace('!', "_")));
+    let inputs = fs::read_to_string(folder.path().join("runs/AG !q.csv".replace([' ', '!'], "_")));
     let inputs = inputs.or_else(|_| {
         let file = fs::read_dir(folder.path().join("runs")).unwrap().next().unwrap().unwrap().path();
         fs::read_to_string(file)

@@ -140,7 +140,8 @@ fn nets_say_nothing_of_their_own() {
             assert_eq!(run.code, 0, "{}", run.stderr);
             must_be_silent(&output, &run);
             must_be_safe(&output, &read(folder, &output));
-            assert!(!read(folder, &output).contains("<script>"), "{output}");
+            // A name of LoLA's may have these letters, and nothing takes its format for markup.
+            assert!(ending == "lola" || !read(folder, &output).contains("<script>"), "{output}");
         }
         // Whoever reads a format gets the names back: all of them, or all that XML can hold.
         petril(folder, &["net", "convert", model, "-o", "again.pnml"]);

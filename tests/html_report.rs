@@ -368,7 +368,8 @@ fn checks_say_why_and_open_on_the_instruction() {
     let (file, report) = page(folder.path(), &["check", &program, "-r", "AG (q -> q)"].map(str::to_owned));
     let check = report["checks"].as_array().unwrap().iter().find(|check| check["name"] == "overflow").unwrap();
     // 120, after scan 1 it is 124, and 124 + 4 is too large.
-    let wanted = "In scan 2, `ADD step` had to give a number from -128 to 127, but 124 + 4 is 128: `n` is 124 and `step` is 4";
+    let wanted =
+        "In scan 2, `ADD step` had to give a number from -128 to 127, but 124 + 4 is 128: `n` is 124 and `step` is 4";
     assert_eq!(check["why"]["wanted"], json!([wanted]));
     let writers: Vec<Value> = check["why"]["writers"]
         .as_array()

@@ -183,7 +183,7 @@ fn within(folder: &Path, line: &[&str]) -> Run {
 fn time_is_kept_in_every_phase() {
     let folder = TempDir::new().unwrap();
     let folder = folder.path();
-    fs::write(folder.join("nested.il"), nested(17)).unwrap();
+    fs::write(folder.join("nested.il"), nested(16)).unwrap();
     fs::write(folder.join("terms.sif"), terms(20_000)).unwrap();
     for verb in ["flat", "translate"] {
         let mut line = vec![verb, "nested.il", "--timeout", "0.1"];
@@ -208,7 +208,7 @@ fn time_is_kept_in_every_phase() {
 #[test]
 fn memory_is_kept_in_every_phase() {
     let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("nested.il"), nested(17)).unwrap();
+    fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
     let run = within(folder.path(), &["check", "nested.il", "-r", "AG (q -> q)", "--max-memory", "100"]);
     assert_eq!(run.code, 3, "{}", run.stderr);
     assert!(run.stderr.contains("unknown: the limit of 100 MiB was reached: "), "{}", run.stderr);
@@ -222,7 +222,7 @@ fn memory_is_kept_in_every_phase() {
 #[test]
 fn a_small_address_space_is_no_abort() {
     let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("nested.il"), nested(17)).unwrap();
+    fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
     let mut command = Command::new("sh");
     let line = "ulimit -v 700000; \"$0\" check nested.il -r 'AG (q -> q)' --threads 1";
     command.args(["-c", line, env!("CARGO_BIN_EXE_petril")]).current_dir(folder.path());

@@ -175,7 +175,7 @@ impl Tree {
     fn set(&self, around: usize) -> String {
         match self {
             Self::Leaf(leaf) => ["a", "b", "c", "TRUE", "FALSE"][*leaf].to_owned(),
-            Self::Not(tree) => format!("{} {}", if around % 2 == 0 { "NOT" } else { "!" }, tree.set(8)),
+            Self::Not(tree) => format!("{} {}", if around.is_multiple_of(2) { "NOT" } else { "!" }, tree.set(8)),
             Self::Two(operator, spelling, left, right) => {
                 let (operator, signs) = (*operator, SPELLINGS[*operator]);
                 let strength = operator.min(5) + 1;

@@ -154,7 +154,7 @@ fn random_programs_come_to_every_construct() {
 #[test]
 fn random_programs_say_everything() {
     let (mut all, mut hazards) = (String::new(), Vec::new());
-    for text in texts(400) {
+    for text in texts(1200) {
         let (program, _) = read(&text);
         let flat = flatten(&program);
         let mut machine = Machine::new(&flat);

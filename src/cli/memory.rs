@@ -11,7 +11,7 @@ const UNKNOWN: u64 = 8 << 30;
 
 /// Default of `--max-memory`, in MiB.
 pub fn default_limit() -> u64 {
-    (usable(Path::new("/")).unwrap_or(UNKNOWN) / 2 >> 20).max(1)
+    ((usable(Path::new("/")).unwrap_or(UNKNOWN) / 2) >> 20).max(1)
 }
 
 /// Bytes of this process in the machine's memory, if the system tells.

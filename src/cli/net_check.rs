@@ -59,12 +59,15 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     })
 }
 
-/// What is asked, and what each question is called, and whether that is an id. All errors are printed.
+/// Name of a question, and whether it is an id.
+type Called = (String, bool);
+
+/// Questions, and how each is called. All errors are printed.
 fn questions(
     arguments: &NetCheck,
     located: &Located,
     console: &Console,
-) -> Result<(Vec<(String, bool)>, Vec<Question>), Failure> {
+) -> Result<(Vec<Called>, Vec<Question>), Failure> {
     let (mut names, mut questions) = (Vec::new(), Vec::new());
     let mut failed = false;
     let mut refuse = |diagnostics: &[Diagnostic], source: &Source| {

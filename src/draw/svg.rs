@@ -21,8 +21,9 @@ const FONT: f64 = 11.0;
 /// Width of a letter; the widest of the usual monospaced fonts has 0.61 of their size.
 const LETTER: f64 = 6.8;
 
-/// The width of a text.
+/// Width of a text, as it is written.
 pub fn width(text: &str) -> f64 {
+    let text = printable::line(text);
     // Scripts without a Latin look mostly take two columns.
     text.chars().map(|c| if c < '\u{1100}' { LETTER } else { 2.0 * LETTER }).sum()
 }

@@ -94,7 +94,7 @@ fn of_formula<'f>(formula: &'f Formula, parts: &mut Vec<&'f Formula>, looks_ahea
             of_formula(g, parts, looks_ahead);
         }
         Expression::Temporal(..) | Expression::Until { .. } | Expression::Within(..) | Expression::Response(..) => {
-            *looks_ahead = true
+            *looks_ahead = true;
         }
         Expression::Ltl(path) => of_path(path, parts, looks_ahead),
         Expression::Truth(_) => {}

@@ -1,5 +1,7 @@
 //! Siemens Statement List (STL, in German AWL): a language that looks like Instruction List, has other words, and is told once.
 
+use std::collections::BTreeSet;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -44,9 +46,11 @@ pub fn statement_list(text: &str) -> Option<Diagnostic> {
             Sign::None => {}
         }
     }
-    let is_named =
-        likely.iter().any(|&Span { start, end }| text[start..end].starts_with(|c: char| c.is_ascii_alphabetic()));
-    likely.first().filter(|_| is_named && likely.len() > 1 && !is_standard).map(|&first| told(first))
+    let words: BTreeSet<String> =
+        likely.iter().map(|&Span { start, end }| text[start..end].to_ascii_uppercase()).collect();
+    let is_named = words.iter().any(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()));
+    // One word that is met again and again may be a mistake of another kind.
+    likely.first().filter(|_| is_named && words.len() > 1 && !is_standard).map(|&first| told(first))
 }
 
 /// What a line says, and its first word.
@@ -147,6 +151,7 @@ mod tests {
             "",
             "PROGRAM p\nVAR A, O : BOOL; T : TON; U: INT; END_VAR\nLD A\nO A\nO A\nST O\nEND_PROGRAM",
             "PROGRAM p\nA := B;\nT := C;\nU := 3;\nEND_PROGRAM",
+            "PROGRAM p\nx y;\nx y;\nx z;\nEND_PROGRAM",
             "PROGRAM p\nx := a\n = b;\ny := c\n = d;\nEND_PROGRAM",
             "FUNCTION network : BOOL\nVAR_INPUT\nTitle : BOOL;\nEND_VAR\nEND_FUNCTION",
         ] {

@@ -95,7 +95,7 @@ impl<'p> Run<'p> {
         let line = self.machine.line();
         match instruction {
             Instruction::Load { .. } => {
-                self.sources = instruction.reads().map(|read| self.read(read)).unwrap_or_default()
+                self.sources = instruction.reads().map(|read| self.read(read)).unwrap_or_default();
             }
             Instruction::Combine { .. } => {
                 let more = instruction.reads().map(|read| self.read(read)).unwrap_or_default();

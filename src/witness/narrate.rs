@@ -59,7 +59,7 @@ pub fn piecewise_scan_table(system: &System, trace: &ScanTrace, shown: &Shown<'_
                 }
                 let what =
                     if movements.is_empty() { " alike".to_owned() } else { format!(": {}", movements.join(", ")) };
-                table.across(format!("{dots} {}{what} {dots}", fold.title()));
+                table.across(&format!("{dots} {}{what} {dots}", fold.title()));
                 continue;
             }
         };
@@ -85,7 +85,7 @@ pub fn piecewise_scan_table(system: &System, trace: &ScanTrace, shown: &Shown<'_
         if has_moves {
             row.push(scan.done(system));
         }
-        table.row(row);
+        table.row(&row);
     }
     table
 }
@@ -111,7 +111,7 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
             change.map(|(id, value)| format!("{} = {}", program.variable(id).name, program.value_text(id, value)));
         let changes: Vec<String> = change.into_iter().chain(executed.hazard.map(|hazard| hazard.to_string())).collect();
         let from = source.line_of(code.span.start);
-        table.row(vec![
+        table.row(&[
             (executed.line + 1).to_string(),
             program.text(code.instruction),
             value_text(executed.ty, executed.result),
@@ -142,7 +142,7 @@ pub fn firing_table(system: &System, trace: &FiringTrace) -> Table {
         };
         let repeats = trace.loop_start.filter(|_| position + 1 == trace.firings.len());
         let repeats = repeats.map(|start| format!(" = {start}")).unwrap_or_default();
-        table.row(vec![
+        table.row(&[
             format!("{}{repeats}", position + 1),
             scan.to_string(),
             system.net.transition(transition).name.to_owned(),

@@ -51,13 +51,13 @@ impl Table {
     }
 
     /// Adds a row: one cell for each column. Each is one line of printable text, whatever is in it.
-    pub fn row(&mut self, cells: Vec<String>) {
+    pub fn row(&mut self, cells: &[String]) {
         self.rows.push(Row::Cells(cells.iter().map(|cell| printable::line(cell)).collect()));
     }
 
     /// Adds a line of text across all columns.
-    pub fn across(&mut self, text: String) {
-        self.rows.push(Row::Across(printable::line(&text)));
+    pub fn across(&mut self, text: &str) {
+        self.rows.push(Row::Across(printable::line(text)));
     }
 
     /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of
@@ -172,7 +172,7 @@ mod tests {
     fn a_narrow_table_is_split_into_blocks() {
         let groups = [vec!["scan"], vec!["In", "Stop"], vec!["Motor"]];
         let mut table = Table::new(groups.map(|group| group.into_iter().map(Column::right).collect()).into());
-        table.row(["1", "*1", "0", "*1"].map(String::from).into());
+        table.row(&["1", "*1", "0", "*1"].map(String::from));
         let whole = "scan | In Stop | Motor\n-----+---------+------\n   1 | *1    0 |    *1\n";
         assert_eq!(table.to_string(), whole);
         assert_eq!(table.within(22), whole);
@@ -185,8 +185,8 @@ mod tests {
     #[test]
     fn a_text_across_a_table_is_broken_at_words() {
         let mut table = Table::new(vec![vec![Column::right("scan")], vec![Column::right("n")]]);
-        table.row(vec!["1".to_owned(), "7".to_owned()]);
-        table.across("… 40 scans: n 7 → 47 …".to_owned());
+        table.row(&["1".to_owned(), "7".to_owned()]);
+        table.across("… 40 scans: n 7 → 47 …");
         let head = "scan | n\n-----+--\n   1 | 7\n";
         assert_eq!(table.to_string(), format!("{head}… 40 scans: n 7 → 47 …\n"));
         assert_eq!(table.within(14), format!("{head}… 40 scans: n\n    7 → 47 …\n"));

@@ -144,7 +144,7 @@ fn other_languages_are_refused_by_name() {
     body_is_refused("LD a\nq := b;\nST q", "6:1", &["Structured Text"]);
     body_is_refused("INITIAL_STEP s:\nEND_STEP", "5:1", &["Sequential Function Chart"]);
     is_refused("#include <stdio.h>\nint main(void) { return 0; }\n", "1:1", &["expected `PROGRAM`"]);
-    is_refused("      U     E 1.0\n      =     A 4.0\n", "1:7", &["expected `PROGRAM`", "found `U`"]);
+    is_refused("      U     E 1.0\n      =     A 4.0\n", "1:7", &["E0114", "Siemens Statement List"]);
     is_refused("<?xml version=\"1.0\"?>\n<project/>\n", "2:1", &["E0108", "holds no program"]);
     is_refused("<html><body>LD a</body></html>", "1:1", &["E0112", "no PLCopen project"]);
     is_refused("{\\rtf1 PROGRAM p}", "", &["E0102"]);

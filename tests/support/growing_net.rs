@@ -29,6 +29,9 @@ fn counters(places: usize, tokens: Vec<u64>, weights: Vec<u64>) -> impl Strategy
     })
 }
 
+/// A counter and by how much it changes, if one does.
+type Counted = Option<(u32, u64)>;
+
 /// A token that goes from mode to mode, and counters that it raises and lowers on its way.
 fn modes() -> impl Strategy<Value = Model> {
     (2..6_u32, 1..4_u32).prop_flat_map(|(modes, counters)| {
@@ -37,7 +40,7 @@ fn modes() -> impl Strategy<Value = Model> {
         prop::collection::vec(step, 1..=8).prop_map(move |steps| {
             let mut initial = vec![0; (modes + counters) as usize];
             initial[0] = 1;
-            let arcs = |(from, to, pre, post): (u32, u32, Option<(u32, u64)>, Option<(u32, u64)>)| Arcs {
+            let arcs = |(from, to, pre, post): (u32, u32, Counted, Counted)| Arcs {
                 pre: [(from, 1)].into_iter().chain(pre).collect(),
                 post: [(to, 1)].into_iter().chain(post).collect(),
             };

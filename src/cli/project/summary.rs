@@ -58,7 +58,7 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
     ]);
     for line in lines {
         let number = |number: usize| number.to_string();
-        table.row(match line.done {
+        let row = match line.done {
             Some(done) => vec![
                 line.name.to_owned(),
                 number(line.answers().len()),
@@ -75,7 +75,8 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
                 row[5] = "error".to_owned();
                 row
             }
-        });
+        };
+        table.row(&row);
     }
     out += &indent(&table.within(console.output_width().saturating_sub(4)));
     out += &format!("\n{}{}", programs(lines), requirements(lines));

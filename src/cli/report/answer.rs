@@ -38,7 +38,7 @@ impl Text<'_> {
                 }
                 match (witness, example) {
                     (Some(witness), _) if self.arguments.witnesses => {
-                        out += &self.witness(answer, witness, None, report)
+                        out += &self.witness(answer, witness, None, report);
                     }
                     (None, Some(example)) if self.arguments.witnesses => {
                         out += &self.told("for example:");

@@ -81,10 +81,10 @@ impl Text<'_> {
             Table::new(vec![vec![Column::left("net")], vec![Column::right("places"), Column::right("transitions")]]);
         for part in Part::ALL {
             let (places, transitions) = self.system.size(part);
-            table.row(vec![part.name().to_owned(), places.to_string(), transitions.to_string()]);
+            table.row(&[part.name().to_owned(), places.to_string(), transitions.to_string()]);
         }
         let net = &self.system.net;
-        table.row(vec!["total".to_owned(), net.places().len().to_string(), net.transitions().len().to_string()]);
+        table.row(&["total".to_owned(), net.places().len().to_string(), net.transitions().len().to_string()]);
         table
     }
 

@@ -18,7 +18,7 @@ pub fn table(report: &Report, console: &Console) -> String {
     let heads = [vec![Column::left("requirement")], vec![Column::left("verdict"), Column::left("shown by")]];
     let mut table = Table::new(heads.into());
     for answer in &report.answers {
-        table.row(vec![answer.name.clone(), answer.outcome.verdict().word().to_owned(), shown_by(answer)]);
+        table.row(&[answer.name.clone(), answer.outcome.verdict().word().to_owned(), shown_by(answer)]);
     }
     format!("{}\n", indent(&table.within(console.output_width().saturating_sub(4))))
 }

@@ -42,7 +42,7 @@ fn text(specification: &Specification, function: usize, excluded: &Excluded, wid
     let mut table = Table::new(vec![vec![Column::left("restriction")], heads, vec![Column::left("which says")]]);
     for (position, its, only) in &excluded.by_restriction {
         let restriction = &specification.restrictions[*position];
-        table.row(vec![restriction.name.clone(), about(its), about(only), restriction.text.clone()]);
+        table.row(&[restriction.name.clone(), about(its), about(only), restriction.text.clone()]);
     }
     out += &format!("\n{}\n", table.within(width));
     match &excluded.listed {
@@ -63,7 +63,7 @@ fn each(specification: &Specification, excluded: &Excluded, listed: &[(FixedBitS
         let mut cells = vec![(number + 1).to_string()];
         cells.extend(valuations::cells(specification, inputs, &whole));
         cells.push(names.join(", "));
-        table.row(cells);
+        table.row(&cells);
     }
     table
 }

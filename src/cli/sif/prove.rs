@@ -162,7 +162,7 @@ impl Told<'_> {
         let mut table = Table::new(vec![vec![Column::left("signal"), Column::left("variable")], columns]);
         let mut row = |signal: &str, variable: &str, value: &dyn Fn(&Scan) -> String| {
             let cells = [signal.to_owned(), variable.to_owned()];
-            table.row(cells.into_iter().chain(scans.iter().map(value)).collect());
+            table.row(&cells.into_iter().chain(scans.iter().map(value)).collect::<Vec<_>>());
         };
         let bit = |value: bool| u8::from(value).to_string();
         for (id, variable) in subject.inputs() {

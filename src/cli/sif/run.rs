@@ -158,7 +158,7 @@ fn summary(sheets: &Sheets<'_>, ran: &Ran<'_>) -> Table {
         let count = |word| run.tests.iter().filter(|test| test.ending.word() == word).count();
         let counts = [run.tests.len(), count("passed"), count("failed"), count("error")];
         let name = sheets.specification.functions[plan.function].name.clone();
-        table.row(std::iter::once(name).chain(counts.map(|count| count.to_string())).collect());
+        table.row(&std::iter::once(name).chain(counts.map(|count| count.to_string())).collect::<Vec<_>>());
     }
     table
 }
@@ -175,7 +175,7 @@ fn failures(sheets: &Sheets<'_>, ran: &Ran<'_>, width: usize) -> String {
             if count <= MAX_TOLD {
                 let name = &sheets.specification.functions[plan.function].name;
                 let why = reasons(sheets, ran, made).join("; ");
-                table.row(vec![format!("{name} test {}", number + 1), why, brief(sheets, test)]);
+                table.row(&[format!("{name} test {}", number + 1), why, brief(sheets, test)]);
             }
         }
     }
@@ -208,7 +208,7 @@ fn told(hunt: &Hunt, ran: &Ran<'_>) -> String {
     let heads = ["faults", "found", "equivalent", "missed", "not decided"].map(Column::right).to_vec();
     let mut table = Table::new(vec![vec![Column::left("fault of the program")], heads]);
     let mut row = |name: &str, counts: [usize; 5]| {
-        table.row(std::iter::once(name.to_owned()).chain(counts.map(|count| count.to_string())).collect());
+        table.row(&std::iter::once(name.to_owned()).chain(counts.map(|count| count.to_string())).collect::<Vec<_>>());
     };
     let of = |class: &str| hunt.counts(Some(class));
     Mutant::CLASSES.iter().filter(|class| of(class)[0] > 0).for_each(|class| row(class, of(class)));

@@ -111,7 +111,7 @@ fn listed(specification: &Specification, plan: &Plan) -> Table {
         let mut cells = vec![(number + 1).to_string()];
         cells.extend(valuations::cells(specification, &inputs, &test.values));
         cells.extend(plan.touched.iter().map(|output| valuations::bit(test.values.contains(output.0))));
-        table.row(cells);
+        table.row(&cells);
     }
     table
 }
@@ -176,9 +176,9 @@ fn classes(plan: &Plan) -> Table {
             undecided: class.undecided,
             killed: class.killed,
         };
-        table.row(std::iter::once(class.class.to_owned()).chain(figures.cells()).collect());
+        table.row(&std::iter::once(class.class.to_owned()).chain(figures.cells()).collect::<Vec<_>>());
     }
-    table.row(std::iter::once("all".to_owned()).chain(Figures::of(plan).cells()).collect());
+    table.row(&std::iter::once("all".to_owned()).chain(Figures::of(plan).cells()).collect::<Vec<_>>());
     table
 }
 
@@ -225,12 +225,12 @@ fn figures(specification: &Specification, plans: &[Plan]) -> Table {
         let mut cells = vec![specification.functions[plan.function].name.clone(), plan.tests.len().to_string()];
         cells.extend(figures.cells());
         cells.push(plan.incomplete.clone().unwrap_or_default());
-        table.row(cells);
+        table.row(&cells);
     }
     let mut cells = vec!["all".to_owned(), tests.to_string()];
     cells.extend(all.cells());
     cells.push(String::new());
-    table.row(cells);
+    table.row(&cells);
     table
 }
 
@@ -256,7 +256,7 @@ fn compared(specification: &Specification, functions: &[usize], limits: &Limits)
         let mut cells = vec![criterion.name().to_owned(), tests.to_string()];
         cells.extend(figures.cells());
         cells.extend([listed.len().to_string(), open.len().to_string()]);
-        table.row(cells);
+        table.row(&cells);
     }
     table
 }

@@ -71,7 +71,7 @@ fn table(system: &System, trace: &ScanTrace) -> Table {
     let mut table = Table::new(vec![vec![Column::right("scan")], names, plant]);
     for (mut row, scan) in rows(program, trace, |id, value| program.value_text(id, value)).zip(&trace.scans) {
         row.extend(has_plant.then(|| scan.done(system)));
-        table.row(row);
+        table.row(&row);
     }
     table
 }

@@ -6,6 +6,7 @@ use petril::exchange::recorded::{Recorded, recorded};
 use petril::explore::ScanState;
 use petril::flat::FlatProgram;
 use petril::logic::{bind_domain, parse_domain};
+use petril::printable;
 use petril::simulate::{Chance, Plan};
 use petril::source::Source;
 use petril::translate::{Domains, Plant, System};
@@ -39,7 +40,7 @@ impl<'s> Steering<'s> {
         }
         if let Some(path) = &arguments.replay {
             let source = input::source(path, MAX_INPUTS, console)?;
-            let say = |problem: String| Failure::Message(format!("{}: {problem}", source.name()));
+            let say = |problem: String| Failure::Message(format!("{}: {problem}", printable::line(source.name())));
             let report: Value = serde_json::from_str(source.text())
                 .map_err(|error| say(format!("this is no JSON document: {error}")))?;
             return Ok(Self::Recorded(recorded(&report, arguments.requirement.as_deref(), system).map_err(say)?));

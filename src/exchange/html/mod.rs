@@ -44,7 +44,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
     let title = format!("{}: {}", checked.system.program.name, checked.report.verdict().word());
     let parts = [
         ("policy", policy(&style, &script)),
-        ("title", markup(&title)),
+        ("title", markup_line(&title)),
         ("style", style),
         ("fallback", fallback::fallback(checked)),
         ("data", data(checked, stamp)),
@@ -69,6 +69,11 @@ fn policy(style: &str, script: &str) -> String {
         hash(style),
         hash(script)
     )
+}
+
+/// A text without markup, on one line.
+fn markup_line(text: &str) -> String {
+    escape(printable::line(text)).into_owned()
 }
 
 /// A text without markup, on its own lines.

@@ -17,8 +17,11 @@ pub(super) enum Swaps {
     Rows(Vec<u64>),
     /// For each transition, those before it that are to be fired, as words of the row of bits that are not 0; nothing if all
     /// are, because they were too many to be examined.
-    Lists(Vec<Option<Box<[(u32, u64)]>>>),
+    Lists(Vec<Option<Words>>),
 }
+
+/// The words of a row of bits that are not 0, each with its position.
+type Words = Box<[(u32, u64)]>;
 
 /// Words of all rows together beyond which there are lists: 2 MiB.
 const ROWS: usize = 1 << 18;

@@ -137,7 +137,7 @@ fn what_is_no_formula_is_explained() {
     let cases = [
         ("", "expected a formula, found the end"),
         ("a b", "expected the end or an operator, found `b`"),
-        ("A [a b]", "expected `U` or `W` or an operator, found `b`"),
+        ("A [a b]", "expected an operator or `U` or `W`, found `b`"),
         ("a & ", "expected a formula, found the end"),
         ("a = 99999999999999999999", "this number is too large"),
         ("(a", "expected `)` or an operator, found the end"),
