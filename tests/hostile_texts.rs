@@ -140,8 +140,8 @@ fn nets_say_nothing_of_their_own() {
             assert_eq!(run.code, 0, "{}", run.stderr);
             must_be_silent(&output, &run);
             must_be_safe(&output, &read(folder, &output));
-            // A name of LoLA's may have these letters, and nothing takes its format for markup.
-            assert!(ending == "lola" || !read(folder, &output).contains("<script>"), "{output}");
+            // Nothing takes the other formats for markup.
+            assert!(ending != "pnml" || !read(folder, &output).contains("<script>"), "{output}");
         }
         // Whoever reads a format gets the names back: all of them, or all that XML can hold.
         petril(folder, &["net", "convert", model, "-o", "again.pnml"]);
@@ -252,7 +252,7 @@ fn reports_say_nothing_of_their_own() {
     }
     for file in ["p.pnml", "p.svg", "p.dot", "d.svg"] {
         must_be_safe(file, &read(folder, file));
-        assert!(!read(folder, file).contains("<script>"), "{file}");
+        assert!(file == "p.dot" || !read(folder, file).contains("<script>"), "{file}");
     }
 }
 

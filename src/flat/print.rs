@@ -21,7 +21,12 @@ impl FlatProgram {
             Instruction::Reset(target) => ("R".to_owned(), name(target)),
             Instruction::Complement(_) => return "NOT".to_owned(),
             Instruction::Combine { function, ty, negated, operand } => {
-                (format!("{}{}", function.word(), n(negated)), value(operand, ty))
+                let operand = match operand {
+                    // A distance is a number, whatever is shifted.
+                    Operand::Constant(distance) if function.shifts() => distance.to_string(),
+                    _ => value(operand, ty),
+                };
+                (format!("{}{}", function.word(), n(negated)), operand)
             }
             Instruction::Convert { from, to } => return format!("{from}_TO_{to}"),
             Instruction::Bound { lower, upper, .. } => ("BOUND".to_owned(), format!("{lower}..{upper}")),

@@ -140,8 +140,8 @@ fn what_is_no_formula_is_explained() {
         ("A [a b]", "expected an operator or `U` or `W`, found `b`"),
         ("a & ", "expected a formula, found the end"),
         ("a = 99999999999999999999", "this number is too large"),
-        ("(a", "expected `)` or an operator, found the end"),
-        ("A [a U b", "expected `]` or an operator, found the end"),
+        ("(a", "expected an operator or `)`, found the end"),
+        ("A [a U b", "expected an operator or `]`, found the end"),
     ];
     for (text, expected) in cases {
         assert_eq!(read(text), expected, "{text}");
