@@ -43,7 +43,7 @@ pub struct Known {
     outcomes: BTreeMap<String, Outcome>,
 }
 
-/// Judges requirements as [`check()`] does, except those of which the outcome is known. If all are, nothing is explored.
+/// Judges requirements as [`check()`](super::check()) does, except those of which the outcome is known. If all are, nothing is explored.
 ///
 /// `known` must be what was found of the same [`fingerprint()`]. What is known now is given back, unless `watch` has ended the
 /// search: then it depends on more than the system.
