@@ -22,17 +22,18 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     let read = specification(&arguments.specification, console)?;
     let specification = &read.specification;
     guard::listen();
-    guard::phase("asking whether the specification makes sense");
     let stop: Stop = Arc::new(guard::is_asked);
+    // Counting is limited by itself, and questions may take all the time there is.
+    guard::phase("counting valuations");
+    let counts: Vec<Vec<Counts>> =
+        (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
+    guard::phase("asking whether the specification makes sense");
     let findings = check(specification, &stop);
     for (file, source) in read.sources.iter().enumerate() {
         let here = findings.iter().filter(|finding| finding.place.file == file);
         let diagnostics: Vec<Diagnostic> = here.map(|finding| finding.diagnostic(specification)).collect();
         console.diagnostics(&diagnostics, source);
     }
-    guard::phase("counting valuations");
-    let counts: Vec<Vec<Counts>> =
-        (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
     if arguments.json {
         console.print_json(document(specification, &findings, &counts))?;
     } else {
