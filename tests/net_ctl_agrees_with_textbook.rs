@@ -8,13 +8,13 @@ use std::collections::BTreeMap;
 
 use petril::explore::Budget;
 use petril::explore::engine::{Model, Options};
-use petril::logic::{Bound, Comparison, Quantifier, Term, Valuation};
+use petril::logic::{Bound, Comparison, Quantifier, Term};
 use petril::net::{Builder, Net, PlaceId, Tokens, TransitionId};
-use petril::semantics::VarId;
 use petril::verdict::{Examination, Question, Reply, Run, judge};
 use proptest::prelude::*;
 use support::naive_ctl::Kripke;
 use support::naive_nets::{Marking, Naive, fire, search};
+use support::naive_partial::At;
 use support::random_formula;
 
 const PLACES: usize = 4;
@@ -52,27 +52,6 @@ fn formulas() -> impl Strategy<Value = Bound> {
     atoms.extend((0..PLACES).map(|place| Bound::Marked(PlaceId::at(place))));
     atoms.extend((0..TRANSITIONS).map(|transition| Bound::Enabled(TransitionId::at(transition))));
     random_formula::formula(atoms, true)
-}
-
-/// A marking as the textbook has it.
-struct At<'n>(&'n Model, &'n Marking);
-
-impl Valuation for At<'_> {
-    fn value(&self, _: VarId) -> u64 {
-        unreachable!()
-    }
-    fn is_marked(&self, place: PlaceId) -> bool {
-        self.tokens(place) > 0
-    }
-    fn tokens(&self, place: PlaceId) -> u64 {
-        self.1[place.index()]
-    }
-    fn is_enabled(&self, transition: TransitionId) -> bool {
-        fire(&self.0.transitions[transition.index()], self.1).is_some()
-    }
-    fn is_deadlock(&self) -> bool {
-        (0..TRANSITIONS).all(|transition| !self.is_enabled(TransitionId::at(transition)))
-    }
 }
 
 /// Whether a formula holds at the beginning; nothing if there are too many markings.

@@ -9,6 +9,7 @@ use petril::sif::Specification;
 use petril::sif::proof::{By, Confirmed, Failure, Form, Options, Outcome, Proof, Subject, prove};
 use petril::source::Source;
 use petril::verdict::Verdict;
+use support::proofs::{function, program, proved, refuted};
 
 const F1: &str = include_str!("../examples/beam-interlock.sif");
 
@@ -25,34 +26,6 @@ fn proof_with(text: &str, program: &FlatProgram, tolerated: Tolerated, options: 
     let specification = specification(text);
     let subject = Subject::new(&specification, program, tolerated, &[]).unwrap_or_else(|e| panic!("{e:#?}"));
     prove(&subject, options)
-}
-
-/// A program with Boolean inputs and outputs.
-fn program(inputs: &str, outputs: &str, more: &str, body: &str) -> FlatProgram {
-    support::program(&format!(
-        "PROGRAM p VAR_INPUT {inputs} : BOOL; END_VAR VAR_OUTPUT {outputs} : BOOL; END_VAR {more}\n{body}\nEND_PROGRAM"
-    ))
-}
-
-/// A function of inputs a, b, c with one output y.
-fn function(output: &str, formal: &str) -> String {
-    format!("function F {{ interface {{ input a; input b; input c; output y{output}; }} formal {{ {formal} }} }}")
-}
-
-/// The one outcome, and its scans as the values of a, b, c in each.
-fn refuted(proof: &Proof) -> Vec<String> {
-    let [answer] = proof.answers.as_slice() else { panic!("{proof:#?}") };
-    let Outcome::Refuted(scans) = &answer.outcome else { panic!("{:#?}", answer.outcome) };
-    let inputs =
-        |scan: &petril::sif::proof::Scan| scan.given.inputs.iter().map(|(_, value)| value.to_string()).collect();
-    scans.iter().map(inputs).collect()
-}
-
-fn proved(proof: &Proof) -> (By, Option<Confirmed>) {
-    let [answer] = proof.answers.as_slice() else { panic!("{proof:#?}") };
-    let Outcome::Proved { by, confirmed } = answer.outcome else { panic!("{:#?}", answer.outcome) };
-    assert!(proof.failures.is_empty() && proof.unknown_failures.is_empty(), "{proof:#?}");
-    (by, confirmed)
 }
 
 const F1_INPUTS: &str = "MODE_Acc, MODE_TFA, MODE_Tra, ACC_Tst, ACC_TfT, EISb_Pos, EISa_Safe";

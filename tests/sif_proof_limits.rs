@@ -7,6 +7,7 @@ use petril::flat::{FlatProgram, Hazard, Tolerated};
 use petril::sif::Specification;
 use petril::sif::proof::{By, Confirmed, Failure, Options, Outcome, Proof, Subject, prove};
 use petril::source::Source;
+use support::proofs::{function, program, proved, refuted};
 
 fn proof_with(text: &str, program: &FlatProgram, tolerated: Tolerated, options: &Options) -> Proof {
     let (specification, diagnostics) = Specification::read(&[Source::new("test.sif", text)]);
@@ -18,34 +19,6 @@ fn proof_with(text: &str, program: &FlatProgram, tolerated: Tolerated, options: 
 /// With this many scans for the interpreter.
 fn tried(text: &str, program: &FlatProgram, tries: u64) -> Proof {
     proof_with(text, program, Tolerated::default(), &Options { tries, ..Options::default() })
-}
-
-/// A program with Boolean inputs and outputs.
-fn program(inputs: &str, outputs: &str, more: &str, body: &str) -> FlatProgram {
-    support::program(&format!(
-        "PROGRAM p VAR_INPUT {inputs} : BOOL; END_VAR VAR_OUTPUT {outputs} : BOOL; END_VAR {more}\n{body}\nEND_PROGRAM"
-    ))
-}
-
-/// A function of inputs a, b, c with one output y.
-fn function(output: &str, formal: &str) -> String {
-    format!("function F {{ interface {{ input a; input b; input c; output y{output}; }} formal {{ {formal} }} }}")
-}
-
-/// The one outcome, and its scans as the values of a, b, c in each.
-fn refuted(proof: &Proof) -> Vec<String> {
-    let [answer] = proof.answers.as_slice() else { panic!("{proof:#?}") };
-    let Outcome::Refuted(scans) = &answer.outcome else { panic!("{:#?}", answer.outcome) };
-    let inputs =
-        |scan: &petril::sif::proof::Scan| scan.given.inputs.iter().map(|(_, value)| value.to_string()).collect();
-    scans.iter().map(inputs).collect()
-}
-
-fn proved(proof: &Proof) -> (By, Option<Confirmed>) {
-    let [answer] = proof.answers.as_slice() else { panic!("{proof:#?}") };
-    let Outcome::Proved { by, confirmed } = answer.outcome else { panic!("{:#?}", answer.outcome) };
-    assert!(proof.failures.is_empty() && proof.unknown_failures.is_empty(), "{proof:#?}");
-    (by, confirmed)
 }
 
 /// The only outcome is unknown, for a reason that says this.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use super::args::Bounds;
+use super::bounds::Bounds;
 use super::{memory, output};
 
 /// Why work is to stop.

@@ -3,6 +3,7 @@
 //! Exit codes are a contract: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
 
 mod args;
+mod bounds;
 mod cache;
 mod cache_key;
 mod check;

@@ -17,6 +17,7 @@ pub mod naive_nets;
 pub mod naive_partial;
 pub mod naive_structure;
 pub mod process;
+pub mod proofs;
 pub mod random_flat;
 pub mod random_formula;
 pub mod random_graph;

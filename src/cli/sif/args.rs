@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Subcommand;
 use petril::sif::Criterion;
 
-use crate::cli::args::Bounds;
+use crate::cli::bounds::Bounds;
 use crate::cli::meaning::Meaning;
 
 /// The verbs on safety functions.
