@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What the program is made of. A change of these that is not committed is said.
+/// Files and folders the program is made of. Uncommitted changes of these are named.
 const MADE_OF: [&str; 6] = ["src", "grammar", "docs/codes", "Cargo.toml", "Cargo.lock", "build.rs"];
 
 fn main() {

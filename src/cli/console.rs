@@ -38,7 +38,7 @@ pub struct Console {
     mark: String,
     /// What was seen of the file system.
     seen: Mutex<Seen>,
-    /// What was read before, by the one that this console is told to.
+    /// Files read before, by whoever this console reports to.
     read_before: Vec<(String, String)>,
     /// Hash of the options of the command line.
     options: Mutex<String>,
@@ -247,7 +247,7 @@ impl Console {
     }
 }
 
-/// What several threads share. What one of them did before it panicked is as good as ever.
+/// A value that several threads share, also after one of them has panicked.
 fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }

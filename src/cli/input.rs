@@ -95,7 +95,7 @@ pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Resul
     Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
 }
 
-/// What is assumed because of a warning about a program, in words.
+/// The assumption that a warning about a program stands for, in words.
 pub fn assumed(code: &str, message: &str) -> Option<String> {
     (code == Code::AddressesMayOverlap.id()).then(|| format!("every address is a place of its own, though {message}"))
 }

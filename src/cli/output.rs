@@ -19,7 +19,7 @@ static READ: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 /// Temporaries that have not taken their names yet.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// What a file is, by whatever path or link it is reached.
+/// Identity of a file, by whatever path or link it is reached.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Identity {
     /// Device and number of a file that exists.
@@ -149,7 +149,7 @@ fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What a link to a file that does not exist points to.
+/// Target of a link to a file that does not exist.
 fn target(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     // A ring of links has no end; the system follows as many.
