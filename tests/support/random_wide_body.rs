@@ -43,7 +43,11 @@ impl Writer<'_, '_> {
         match self.choices.pick(15) {
             0 => {
                 self.value(BOOL, 0);
-                if let Some(place) = self.place(BOOL, true) {
+                let element = match self.choices.pick(4) {
+                    0 => self.some_place(BOOL, |entry| entry.written && !entry.ranges.is_empty()),
+                    _ => None,
+                };
+                if let Some(place) = element.or_else(|| self.place(BOOL, true)) {
                     let operator = self.choices.of(&["S", "R"]);
                     self.line(&format!("{operator} {place}"));
                 }
@@ -114,7 +118,13 @@ impl Writer<'_, '_> {
         let label = format!("turn{number}_{}", self.label);
         self.line(&format!("LD USINT#0\nST turn{number}\n{label}:"));
         self.assignment();
-        self.line(&format!("LD turn{number}\nADD 1\nST turn{number}\nLT {times}\nJMPC {label}"));
+        let count = format!("LD turn{number}\nADD 1\nST turn{number}");
+        let end = match self.choices.pick(3) {
+            0 => format!("{count}\nLT {times}\nJMPC {label}"),
+            1 => format!("{count}\nGE {times}\nJMPCN {label}"),
+            _ => format!("{count}\nGE {times}\nJMPC after_{label}\nJMP {label}\nafter_{label}:"),
+        };
+        self.line(&end);
     }
 
     /// A call of a function block, in one of the notations.
@@ -152,6 +162,7 @@ impl Writer<'_, '_> {
         let in_out = match &unit.in_out {
             None => None,
             Some((name, InOut::Row)) => Some((name, self.scope.rows.first()?.clone())),
+            Some((name, InOut::Pair)) => Some((name, self.scope.pairs.first()?.clone())),
             Some((name, InOut::One(of))) => Some((name, self.bound(*of)?)),
             Some((name, InOut::Counter)) => {
                 let counters = self.scope.instances.iter().filter(|(_, unit)| unit.name == "CTU");

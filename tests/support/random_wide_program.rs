@@ -58,6 +58,8 @@ pub enum InOut {
     One(Of),
     /// `ARRAY [0..3] OF SINT`
     Row,
+    /// A structure.
+    Pair,
     /// `CTU`
     Counter,
 }
@@ -71,6 +73,8 @@ pub struct Scope {
     pub functions: Vec<Unit>,
     /// Variables of the type that [`InOut::Row`] takes.
     pub rows: Vec<String>,
+    /// Variables of the type that [`InOut::Pair`] takes.
+    pub pairs: Vec<String>,
     /// `VAR … END_VAR` of loops, as many as the body needs.
     pub loops: usize,
     /// Whether values are only moved, so that variables need few bits.
@@ -126,6 +130,7 @@ pub fn text(choices: &mut Choices<'_>) -> String {
     );
     let global = Of::Plain(choices.ty());
     text += &format!("VAR_GLOBAL g0 : {} := {}; END_VAR\n", global.name(), literal(choices, global, false));
+    text += "VAR_GLOBAL shared : Pair := (l := 7); END_VAR\n";
     text += "VAR_GLOBAL late : TON; END_VAR\nVAR_GLOBAL CONSTANT limit : USINT := 3; END_VAR\n";
     let plain = choices.pick(4) == 0;
     let mut making = Making { choices, plain, types: [element, other].map(Of::Plain), global, units: Vec::new() };
@@ -210,12 +215,18 @@ impl Making<'_, '_> {
         let locals = self.names("z", 0, 1);
         let (own, _) = self.variables("VAR", &locals, &mut scope, true);
         let mut own = own;
-        let in_out = (self.choices.pick(3) == 0).then(|| {
-            let of = self.of();
-            own += &format!("VAR_IN_OUT w : {}; END_VAR\n", of.name());
-            scope.entry("w", of, true);
-            ("w".to_owned(), InOut::One(of))
-        });
+        let temporary = self.names("t", 0, 1);
+        own += &self.variables("VAR_TEMP", &temporary, &mut scope, true).0;
+        let in_out = match self.choices.pick(6) {
+            0 | 1 => {
+                let of = self.of();
+                own += &format!("VAR_IN_OUT w : {}; END_VAR\n", of.name());
+                scope.entry("w", of, true);
+                Some(("w".to_owned(), InOut::One(of)))
+            }
+            2 => Some(self.pair_in_out(&mut scope, &mut own)),
+            _ => None,
+        };
         own += &self.composite(&mut scope, 12);
         let is_subrange = result == PLAIN_INT && self.choices.flag();
         if is_subrange {
@@ -239,7 +250,8 @@ impl Making<'_, '_> {
         let (own, temporary) = (self.names("z", 0, 2), self.names("t", 0, 1));
         let (mut own, _) = self.variables("VAR", &own, &mut scope, true);
         own += &self.variables("VAR_TEMP", &temporary, &mut scope, true).0;
-        let in_out = match self.choices.pick(5) {
+        let in_out = match self.choices.pick(6) {
+            3 => Some(self.pair_in_out(&mut scope, &mut own)),
             2 => {
                 own += "VAR_IN_OUT w : CTU; END_VAR\n";
                 standard().iter().filter(|unit| unit.name == "CTU").for_each(|unit| scope.instance("w", unit));
@@ -277,6 +289,11 @@ impl Making<'_, '_> {
         text += &self.variables("VAR_TEMP", &temporary, &mut scope, true).0;
         text += &self.composite(&mut scope, 5);
         text += &self.instances(&mut scope);
+        if self.units.iter().any(|unit| matches!(unit.in_out, Some((_, InOut::Pair)))) {
+            text += "VAR both : Pair := (b := FALSE); END_VAR\n";
+            self.members("both", &[], &mut scope);
+            scope.pairs.insert(0, "both".to_owned());
+        }
         if self.choices.pick(4) == 0 {
             scope.entry("%IX0.3", BOOL, false);
             scope.entry("%QB4", Of::Plain(Type::new(Kind::Bits, 8)), true);
@@ -328,6 +345,12 @@ impl Making<'_, '_> {
         if self.choices.pick(rarity) == 0 {
             text += "VAR pair : Pair := (b := FALSE, l := -5); END_VAR\n";
             self.members("pair", &[], scope);
+            scope.pairs.push("pair".to_owned());
+        }
+        if self.choices.pick(rarity) == 0 {
+            text += "VAR_EXTERNAL shared : Pair; END_VAR\n";
+            self.members("shared", &[], scope);
+            scope.pairs.push("shared".to_owned());
         }
         if self.choices.pick(rarity) == 0 {
             text += "VAR pairs : ARRAY [-1..1] OF Pair := [(c := Red), 2((l := 20))]; END_VAR\n";
@@ -342,6 +365,14 @@ impl Making<'_, '_> {
             scope.entry("g0", self.global, true);
         }
         text
+    }
+
+    /// A structure that a unit is given to change.
+    fn pair_in_out(&mut self, scope: &mut Scope, own: &mut String) -> (String, InOut) {
+        *own += "VAR_IN_OUT w : Pair; END_VAR\n";
+        self.members("w", &[], scope);
+        scope.pairs.push("w".to_owned());
+        ("w".to_owned(), InOut::Pair)
     }
 
     /// The global timer, named in one of six units.

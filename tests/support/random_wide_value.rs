@@ -48,6 +48,7 @@ impl Writer<'_, '_> {
         let unit = &functions[self.choices.pick(functions.len())];
         let in_out = match &unit.in_out {
             Some((_, InOut::One(of))) => self.bound(*of).map(Some),
+            Some((_, InOut::Pair)) => self.scope.pairs.first().cloned().map(Some),
             _ => Some(None),
         };
         match in_out {
