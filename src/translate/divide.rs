@@ -12,10 +12,10 @@ use super::subnet::{Step, Subnet};
 use super::walk::Stage;
 use super::weaver::{Bit, VALUES};
 use super::wire::{Wire, with};
-use crate::flat::{Hazard, Operand, Target};
 use crate::net::PlaceId;
-use crate::semantics::Type;
 use crate::translate::provenance::Register;
+use petril_lang::flat::{Hazard, Operand, Target};
+use petril_lang::semantics::Type;
 
 /// A division in the making.
 struct Division {

@@ -1,6 +1,6 @@
 //! Sets of numbers as decisions over bits, from the highest to the lowest.
 
-use crate::semantics::Type;
+use petril_lang::semantics::Type;
 
 /// Some of the patterns of a number of bits. Equal sets are equal values, so that a decision diagram shares them.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -5,8 +5,8 @@ use smallvec::smallvec;
 use super::element;
 use super::subnet::{Step, Subnet};
 use super::weaver::{Bit, Change, Changes, VALUES};
-use crate::flat::{Operand, Target};
-use crate::semantics::Type;
+use petril_lang::flat::{Operand, Target};
+use petril_lang::semantics::Type;
 
 /// A bit that is read: what it can be, each time with the bits that must have the values they then have.
 #[derive(Clone, Debug)]
