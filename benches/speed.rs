@@ -5,8 +5,8 @@ mod programs;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use petril::draw::Positions;
-use petril::exchange::{Notes, pnml, pnml::Extras};
+use petril::draw::positions;
+use petril::exchange::{notes, pnml, pnml::Extras};
 use petril::explore::{Budget, Graph, Markings, ScanSpace, explore};
 use petril::flat::flatten;
 use petril::logic::{Dag, ScanValuation, label};
@@ -113,7 +113,7 @@ fn exchanging(criterion: &mut Criterion) {
     let system = system(&text);
     let source = Source::new("mixed", text);
     let write = || {
-        let (positions, notes) = (Positions::of(&system), Notes::of(&system, &source));
+        let (positions, notes) = (positions(&system), notes(&system, &source));
         pnml::write(&system.net, Extras { positions: Some(&positions), notes: Some(&notes), ..Extras::default() })
     };
     let written = Source::new("mixed.pnml", write());

@@ -38,15 +38,30 @@
 
 pub mod draw;
 pub mod exchange;
-pub mod explore;
-pub mod logic;
-pub mod net;
-pub mod sif;
-pub mod simulate;
-pub mod structure;
-pub mod translate;
-pub mod verdict;
-pub mod witness;
 
 pub use petril_base::{diagnostic, printable, source};
+pub use petril_check::{simulate, translate, witness};
 pub use petril_lang::{flat, interpret, semantics, syntax};
+pub use petril_net::{net, structure};
+pub use petril_spec::sif;
+
+/// State spaces of programs and nets: what explores them, the graph it leaves, and scans as gates.
+pub mod explore {
+    pub use petril_check::scans::*;
+    pub use petril_lang::circuit::{Gate, Lanes, NoGates, ScanGates, Wire};
+    pub use petril_net::{Goal, Markings, SECOND_TOKEN, Tokens, Walk, engine, without_loops};
+    pub use petril_search::*;
+}
+
+/// Requirements: formulas, what their names mean, and their truth on a graph.
+pub mod logic {
+    pub use petril_check::requirement::*;
+    pub use petril_logic::*;
+    pub use petril_net::MarkingValuation;
+}
+
+/// Verdicts about programs, and answers about nets alone.
+pub mod verdict {
+    pub use petril_check::verdict::*;
+    pub use petril_net::question::*;
+}

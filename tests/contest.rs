@@ -149,7 +149,7 @@ fn answers_are_those_worked_out_by_hand() {
     let bounds = [(&["on1"][..], "1"), (&["on1", "on2"], "2"), (&["on1", "off1", "broken"], "1")];
     let formulas = cases.into_iter().map(|(formula, holds)| (formula, if holds { "TRUE" } else { "FALSE" }));
     let bounds = bounds.map(|(places, bound)| (tokens(places).replace("tokens-count", "place-bound"), bound));
-    let nodes = Nodes::by_name(&net);
+    let nodes = net.nodes();
     for (formula, expected) in formulas.chain(bounds) {
         let text = format!("<property-set><property><id>x</id><formula>{formula}</formula></property></property-set>");
         let (properties, errors) = mcc::read(&Source::new("lamps.xml", text));
@@ -165,7 +165,7 @@ fn answers_are_shown_by_runs() {
     let net = tina::read(&Source::new("lamps.net", LAMPS)).unwrap().net;
     let run = |text: &str| {
         let parsed = parse_formula(&Source::new("f", text)).unwrap();
-        let formula = bind_in_net(&parsed, &Nodes::by_name(&net)).unwrap();
+        let formula = bind_in_net(&parsed, &net.nodes()).unwrap();
         let report = judge(&net, &[Question::Holds(formula)], &Options::default(), &mut |_| None);
         let (word, run) = match &report.replies[0] {
             Reply::Holds(run) => ("holds", run),
@@ -196,7 +196,7 @@ fn answers_are_shown_by_trees() {
         parts.extend(run.loop_start.map(|start| format!("again {start}")));
         for branch in &run.branches {
             let run = branch.run.as_ref().map(|run| format!(": {}", told(run, net))).unwrap_or_default();
-            parts.push(format!("[{} {}{run}]", branch.at, branch.formula.text_in_net(net)));
+            parts.push(format!("[{} {}{run}]", branch.at, branch.formula.text(net)));
         }
         parts.join(" ")
     }
@@ -207,7 +207,7 @@ fn answers_are_shown_by_trees() {
     };
     let formula = |text: &str| {
         let parsed = parse_formula(&Source::new("f", text)).unwrap();
-        tree(Question::Holds(bind_in_net(&parsed, &Nodes::by_name(&net)).unwrap()))
+        tree(Question::Holds(bind_in_net(&parsed, &net.nodes()).unwrap()))
     };
     // With lamp 2 on, lamp 1 can be switched for ever, and it can break.
     assert_eq!(

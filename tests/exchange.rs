@@ -6,9 +6,9 @@ mod support;
 use std::collections::{BTreeSet, VecDeque};
 use std::process::Command;
 
-use petril::draw::Positions;
+use petril::draw::positions;
 use petril::exchange::pnml::{self, Extras};
-use petril::exchange::{Notes, tina};
+use petril::exchange::{notes, tina};
 use petril::flat::{Function, Instruction, Operand, Target};
 use petril::net::{Arcs, Builder, Net};
 use petril::semantics::{Role, Type, VarId};
@@ -111,7 +111,7 @@ fn the_two_hand_switch_goes_through_every_format_unchanged() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
     assert_eq!(Part::ALL.map(|part| system.size(part).0), [52, 7, 4]);
     let source = Source::new("two-hand-switch.il", TWO_HAND_SWITCH);
-    let (positions, notes, units) = (Positions::of(&system), Notes::of(&system, &source), system.units());
+    let (positions, notes, units) = (positions(&system), notes(&system, &source), system.units());
     let extras = Extras { positions: Some(&positions), notes: Some(&notes), units: Some(&units), ..Extras::default() };
     let text = pnml::write(&system.net, extras);
     let read = from_pnml(&text);
@@ -131,7 +131,7 @@ fn a_plant_that_reads_outputs_goes_through_every_format_unchanged() {
 #[test]
 fn tool_sections_say_what_nodes_stand_for() {
     let system = system(TWO_HAND_SWITCH, &[HANDS]);
-    let notes = Notes::of(&system, &Source::new("two-hand-switch.il", TWO_HAND_SWITCH));
+    let notes = notes(&system, &Source::new("two-hand-switch.il", TWO_HAND_SWITCH));
     let of_place = |name: &str| {
         let note = &notes.places[system.net.find_place(name).unwrap().index()];
         note.iter().map(|(word, value)| format!("{word}={value}")).collect::<Vec<_>>().join(" ")
@@ -202,7 +202,7 @@ fn nodes_of_wide_data_have_notes() {
     let operand = Operand::Place(Target::Variable(VarId(0)));
     let code = vec![Instruction::Combine { function: Function::Mul, ty: sint, negated: false, operand }];
     let system = System::new(flat(vec![variable("x", Role::Input, sint)], code), Plant::default());
-    let notes = Notes::of(&system, &Source::new("x.il", "MUL x"));
+    let notes = notes(&system, &Source::new("x.il", "MUL x"));
     let words =
         |note: &[(&str, String)]| note.iter().map(|(word, value)| format!("{word}={value}")).collect::<Vec<_>>();
     let place = |name: &str| words(&notes.places[system.net.find_place(name).unwrap().index()]).join(" ");

@@ -253,6 +253,6 @@ fn a_second_token_is_a_failure_where_it_falls() {
     // a; b; a c; b c, where u would put a second token on c.
     assert_eq!((graph.len(), graph.stop()), (4, &Stop::Complete));
     let c = net.find_place("c").unwrap();
-    assert_eq!(graph.failures(), &[(Some(3), Failure::NotSafe(c))]);
+    assert_eq!(graph.failures(), &[(Some(3), Failure::NotSafe(c).into())]);
     assert!(!graph.is_complete() && graph.open().contains(3));
 }

@@ -93,19 +93,19 @@ proptest! {
 
     #[test]
     fn of_the_scan_view_come_back(formula in formula(View::Scan)) {
-        let text = formula.text(&SYSTEM);
+        let text = formula.text(&*SYSTEM);
         prop_assert_eq!(support::formula(&text, &SYSTEM, View::Scan), formula, "{}", text);
     }
 
     #[test]
     fn of_the_transition_view_come_back(formula in formula(View::Transition)) {
-        let text = formula.text(&SYSTEM);
+        let text = formula.text(&*SYSTEM);
         prop_assert_eq!(support::formula(&text, &SYSTEM, View::Transition), formula, "{}", text);
     }
 
     #[test]
     fn of_a_net_alone_come_back(formula in formula(View::Transition)) {
-        let text = formula.text_in_net(&SYSTEM.net);
+        let text = formula.text(&SYSTEM.net);
         prop_assert_eq!(in_net(&text), Ok(formula), "{}", text);
     }
 }
@@ -113,7 +113,7 @@ proptest! {
 /// The formula of a text about the net alone, or what is wrong with it.
 fn in_net(text: &str) -> Result<Bound, Vec<String>> {
     let formula = parse_formula(&Source::new("formula", text)).unwrap_or_else(|e| panic!("{text}: {e:?}"));
-    bind_in_net(&formula, &Nodes::by_name(&SYSTEM.net)).map_err(|errors| {
+    bind_in_net(&formula, &SYSTEM.net.nodes()).map_err(|errors| {
         errors.into_iter().map(|e| format!("{} {}; {}", e.code, e.message, e.help.join(""))).collect()
     })
 }
@@ -206,7 +206,7 @@ fn texts_are_as_one_would_write_them() {
         "memory & TRUE",
     ];
     for text in texts {
-        let printed = support::formula(text, &SYSTEM, View::Scan).text(&SYSTEM);
+        let printed = support::formula(text, &SYSTEM, View::Scan).text(&*SYSTEM);
         assert_eq!(printed, text.replace("(EX q)", "EX q"));
     }
     let texts = [
@@ -219,7 +219,7 @@ fn texts_are_as_one_would_write_them() {
         "AG !at deadlock",
     ];
     for text in texts {
-        assert_eq!(support::formula(text, &SYSTEM, View::Transition).text(&SYSTEM), text);
+        assert_eq!(support::formula(text, &SYSTEM, View::Transition).text(&*SYSTEM), text);
     }
 }
 
@@ -229,5 +229,5 @@ fn buffers_are_told_as_places() {
     let buffer = SYSTEM.program.with_role(Role::Buffer).next().unwrap();
     let name = &SYSTEM.program.variable(buffer).name;
     let text = format!("marked(\"{name}=1\")");
-    assert_eq!(support::formula(&text, &SYSTEM, View::Transition).text(&SYSTEM), text);
+    assert_eq!(support::formula(&text, &SYSTEM, View::Transition).text(&*SYSTEM), text);
 }

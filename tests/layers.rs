@@ -1,47 +1,25 @@
-//! The order of the modules, and what only one of them may do.
+//! The order of modules within each crate, which cargo does not see, and what only one of them may do.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A module may use only modules to its left. `docs/architecture.md` says why each stands where it does.
-const ORDER: [&str; 21] = [
-    "printable",
-    "source",
-    "diagnostic",
-    "xml",
-    "rows",
-    "syntax",
-    "semantics",
-    "flat",
-    "interpret",
-    "net",
-    "translate",
-    "structure",
-    "explore",
-    "logic",
-    "witness",
-    "simulate",
-    "verdict",
-    "sif",
-    "draw",
-    "exchange",
-    "cli",
+/// The modules of crates with more than one layer. A module may use only modules to its left; files that are not named here may be
+/// used by all. `docs/architecture.md` says why each stands where it does.
+const ORDERS: [(&str, &[&str]); 4] = [
+    ("crates/lang/src", &["syntax", "semantics", "flat", "circuit", "interpret"]),
+    ("crates/net/src", &["net", "structure", "engine", "question", "format"]),
+    ("crates/check/src", &["translate", "scans", "requirement", "witness", "simulate", "verdict"]),
+    ("src", &["draw", "exchange", "cli"]),
 ];
 
-/// Every source file of a module, with its text.
-fn files(module: &str) -> Vec<(PathBuf, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+/// Every source file of a folder, with its text.
+fn files(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
-    let mut folders = vec![root.join(module)];
-    let single = root.join(format!("{module}.rs"));
-    if single.exists() {
-        found.push(single);
-    }
+    let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
-        let Ok(entries) = fs::read_dir(&folder) else { continue };
-        for path in entries.map(|entry| entry.unwrap().path()) {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|ending| ending == "rs") {
@@ -49,9 +27,18 @@ fn files(module: &str) -> Vec<(PathBuf, String)> {
             }
         }
     }
-    assert!(!found.is_empty(), "module {module} has no file");
     found.sort();
     found.into_iter().map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Every source file of the project with its path from the top.
+fn sources() -> Vec<(String, String)> {
+    let all = ["src", "crates"].into_iter().flat_map(|folder| files(&root().join(folder)));
+    all.map(|(path, text)| (path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/"), text)).collect()
 }
 
 /// The code of a file: without comments, and without its own tests, which may use what they like.
@@ -60,7 +47,7 @@ fn code(text: &str) -> String {
     code.lines().map(|line| line.split("//").next().unwrap()).collect::<Vec<_>>().join("\n")
 }
 
-/// The modules a text names behind `crate::` or `petril::`, singly or in a group.
+/// The modules of a crate that a text names after `crate::` or `petril::`, singly or in a group.
 fn used(text: &str) -> BTreeSet<String> {
     let mut used = BTreeSet::new();
     for prefix in ["crate::", "petril::"] {
@@ -74,7 +61,7 @@ fn used(text: &str) -> BTreeSet<String> {
                 let name = name.trim();
                 name.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default().to_owned()
             };
-            used.extend(names.into_iter().map(first_word).filter(|name| ORDER.contains(&name.as_str())));
+            used.extend(names.into_iter().map(first_word));
         }
     }
     used
@@ -82,45 +69,17 @@ fn used(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn modules_use_only_modules_to_their_left() {
-    for (position, module) in ORDER.iter().enumerate() {
-        for (path, text) in files(module) {
-            if path.file_name().is_some_and(|name| name == "tests.rs" || name == "testing.rs") {
-                continue;
-            }
-            for other in used(&code(&text)) {
-                let allowed = ORDER[..=position].contains(&other.as_str());
-                assert!(allowed, "{}: {module} uses {other}, which stands to its right", path.display());
-            }
-        }
-    }
-}
-
-#[test]
-fn the_order_names_every_module() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut found = BTreeSet::new();
-    for path in fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()) {
-        found.insert(path.file_stem().unwrap().to_str().unwrap().to_owned());
-    }
-    ["lib", "main"].iter().for_each(|name| _ = found.remove(*name));
-    assert_eq!(found, ORDER.iter().map(|&name| name.to_owned()).collect());
-}
-
-/// Files, the terminal and the clock belong to the command line; the grammars' parser to the modules that read text.
-#[test]
-fn some_things_are_done_in_one_place_only() {
-    let only: [(&[&str], &[&str]); 4] = [
-        (&["std::fs", "stdout", "stderr", "stdin", "println!", "print!("], &["cli"]),
-        (&["Instant", "SystemTime"], &["cli"]),
-        (&["pest_derive", "pest::Parser"], &["syntax", "logic", "exchange", "sif"]),
-        (&["interpret::Machine"], &["interpret", "explore", "witness", "simulate", "sif"]),
-    ];
-    for module in ORDER {
-        for (path, text) in files(module) {
-            for (words, modules) in only {
-                let found = words.iter().find(|word| code(&text).contains(**word));
-                if let Some(word) = found.filter(|_| !modules.contains(&module)) {
-                    panic!("{} has `{word}`, which only {modules:?} may have", path.display());
+    for (folder, order) in ORDERS {
+        for (position, module) in order.iter().enumerate() {
+            let found = files(&root().join(folder).join(module));
+            assert!(!found.is_empty(), "{folder} has no module {module}");
+            for (path, text) in found {
+                if path.file_name().is_some_and(|name| name == "tests.rs" || name == "testing.rs") {
+                    continue;
+                }
+                for other in used(&code(&text)) {
+                    let to_the_right = order[position + 1..].contains(&other.as_str());
+                    assert!(!to_the_right, "{}: {module} uses {other}, which stands to its right", path.display());
                 }
             }
         }
@@ -128,10 +87,54 @@ fn some_things_are_done_in_one_place_only() {
 }
 
 #[test]
+fn the_orders_name_every_folder() {
+    for (folder, order) in ORDERS {
+        let entries = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+        let folders = entries.filter(|path| path.is_dir());
+        let found: BTreeSet<String> =
+            folders.map(|path| path.file_name().unwrap().to_str().unwrap().to_owned()).collect();
+        assert_eq!(found, order.iter().map(|&name| name.to_owned()).collect(), "{folder}");
+    }
+}
+
+/// Files, the terminal and the clock belong to the command line; the grammars' parser to the modules that read text; the machine to
+/// what runs programs.
+#[test]
+fn some_things_are_done_in_one_place_only() {
+    let only: [(&[&str], &[&str]); 4] = [
+        (&["std::fs", "stdout", "stderr", "stdin", "println!", "print!("], &["src/cli/"]),
+        (&["Instant", "SystemTime"], &["src/cli/"]),
+        (
+            &["pest_derive", "pest::Parser"],
+            &["crates/lang/src/syntax/", "crates/logic/src/parse", "crates/net/src/format/", "crates/spec/src/sif/"],
+        ),
+        (
+            &["interpret::Machine"],
+            &[
+                "crates/lang/src/interpret/",
+                "crates/check/src/scans/",
+                "crates/check/src/witness/",
+                "crates/check/src/simulate/",
+                "crates/spec/src/sif/",
+            ],
+        ),
+    ];
+    let sources = sources();
+    for (words, places) in only {
+        for place in places {
+            assert!(sources.iter().any(|(path, _)| path.starts_with(place)), "{place} is not there");
+        }
+        for (path, text) in sources.iter().filter(|(path, _)| !places.iter().any(|place| path.starts_with(place))) {
+            if let Some(word) = words.iter().find(|word| code(text).contains(**word)) {
+                panic!("{path} has `{word}`, which only {places:?} may have");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_test_sees_what_it_should() {
-    assert_eq!(
-        used("use crate::net::{Arcs};\nuse crate::{flat, logic::View};"),
-        ["flat", "logic", "net"].map(String::from).into()
-    );
-    assert_eq!(used(&code("// crate::cli\nlet x = crate::explore::explore();")), ["explore".to_owned()].into());
+    let expected = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<BTreeSet<_>>();
+    assert_eq!(used("use crate::net::{Arcs};\nuse crate::{flat, logic::View};"), expected(&["flat", "logic", "net"]));
+    assert_eq!(used(&code("// crate::cli\nlet x = crate::explore::explore();")), expected(&["explore"]));
 }

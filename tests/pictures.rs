@@ -3,7 +3,7 @@
 
 mod support;
 
-use petril::draw::{Positions, diagram, subnet, surroundings};
+use petril::draw::{diagram, positions, subnet, surroundings};
 use petril::flat::{Condition, Element, Function, Instruction, Operand, Target};
 use petril::semantics::{Role, Type, VarId};
 use petril::translate::{Plant, System, TransitionRole};
@@ -238,7 +238,7 @@ fn a_long_program_takes_space_and_time_in_proportion() {
 #[test]
 fn no_two_nodes_have_the_same_position() {
     for system in [system(TWO_HAND_SWITCH, &[HANDS]), system(EVERY_INSTRUCTION, &[CYLINDER]), wide()] {
-        let positions = Positions::of(&system);
+        let positions = positions(&system);
         assert_eq!(positions.places.len(), system.net.places().len());
         assert_eq!(positions.transitions.len(), system.net.transitions().len());
         let mut all: Vec<_> = positions.places.into_iter().chain(positions.transitions).collect();

@@ -215,7 +215,7 @@ proptest! {
         prop_assert_eq!(table(|values| value(&bound, values)), expected.clone(), "{}", text);
         prop_assert_eq!(in_sif(&text), expected, "{}", text);
         // And what is printed of it is read again.
-        let printed = bound.text(&SYSTEM);
+        let printed = bound.text(&*SYSTEM);
         prop_assert_eq!(support::formula(&printed, &SYSTEM, View::Scan), bound, "{}", printed);
     }
 }
@@ -226,7 +226,7 @@ fn required(text: &str) -> Result<String, String> {
         parse_requirement("r", &Source::new("f", text)).map_err(|e| format!("{}; {}", e.message, e.help.join("; ")))?;
     match requirement.body {
         Body::Formula(formula) => bind(&formula, &SYSTEM, View::Scan)
-            .map(|bound| bound.text(&SYSTEM))
+            .map(|bound| bound.text(&*SYSTEM))
             .map_err(|errors| errors.into_iter().map(|e| e.message).collect::<Vec<_>>().join("; ")),
         other => panic!("{other:?}"),
     }

@@ -96,7 +96,7 @@ fn questions(
         errors.sort_by_key(Diagnostic::span);
         refuse(&errors, &source);
     }
-    let by_name = Nodes::by_name(&located.net);
+    let by_name = located.net.nodes();
     for text in &arguments.formula {
         let source = Source::new("formula", text.as_str());
         let parsed = parse_formula(&source).map_err(|error| vec![error]);
@@ -119,7 +119,7 @@ fn questions(
 
 /// The nodes by the ids of the file; by their names where it has none.
 fn ids(located: &Located) -> Nodes<'_> {
-    let Some((places, transitions)) = &located.ids else { return Nodes::by_name(&located.net) };
+    let Some((places, transitions)) = &located.ids else { return located.net.nodes() };
     let places = places.iter().enumerate().map(|(i, id)| (id.as_str(), PlaceId::at(i)));
     let transitions = transitions.iter().enumerate().map(|(i, id)| (id.as_str(), TransitionId::at(i)));
     Nodes::by_id(places, transitions)

@@ -43,7 +43,7 @@ fn write(run: &Run, net: &Net, indent: usize, out: &mut String) {
 }
 
 fn formula(formula: &Bound, net: &Net) -> String {
-    let text = line(&formula.text_in_net(net));
+    let text = line(&formula.text(net));
     match text.char_indices().nth(LONG) {
         Some((end, _)) => format!("{} ...", &text[..end]),
         None => text,
@@ -56,7 +56,7 @@ pub fn json(run: &Run, net: &Net) -> serde_json::Value {
     let branch = |branch: &Branch| {
         json!({
             "after": branch.at,
-            "formula": branch.formula.text_in_net(net),
+            "formula": branch.formula.text(net),
             "trace": branch.run.as_ref().map(|run| json(run, net)),
         })
     };

@@ -1,7 +1,7 @@
 //! `petril translate`: the net of a program and its plant, as a file.
 
-use petril::draw::{self, Positions};
-use petril::exchange::Notes;
+use petril::draw::{self, positions};
+use petril::exchange::notes;
 use petril::exchange::pnml::Extras;
 
 use super::args::Translate;
@@ -23,7 +23,7 @@ pub fn run(arguments: &Translate, console: &Console) -> Outcome {
         }
         Format::Svg => output::write_text(&arguments.output, &draw::diagram(&system).svg())?,
         Format::Pnml => {
-            let (positions, notes, units) = (Positions::of(&system), Notes::of(&system, &source), system.units());
+            let (positions, notes, units) = (positions(&system), notes(&system, &source), system.units());
             let extras =
                 Extras { positions: Some(&positions), notes: Some(&notes), units: Some(&units), ..Extras::default() };
             net_convert::write(&arguments.output, format, &system.net, extras, console)?;

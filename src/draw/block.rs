@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::crossings::{self, Columns};
 use super::picture::{Anchor, At, DrawnArc, Head, Picture, PlaceStyle};
 use super::svg::{BOX_HEIGHT, RADIUS, width};
-use crate::net::{PlaceId, TransitionId};
-use crate::translate::{System, TransitionRole};
+use petril_check::translate::{System, TransitionRole};
+use petril_net::net::{PlaceId, TransitionId};
 
 /// Room between two columns, for the arcs.
 const GAP: f64 = 84.0;

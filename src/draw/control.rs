@@ -1,7 +1,7 @@
 //! The way of the control token through a system: `idle`, the copying of each input, the lines, `End`, and back.
 
-use crate::net::{PlaceId, TransitionId};
-use crate::translate::{PlaceRole, System};
+use petril_check::translate::{PlaceRole, System};
+use petril_net::net::{PlaceId, TransitionId};
 
 /// The control places in the order in which the token passes them where no jump is taken, counted from 0.
 pub struct Control<'a> {

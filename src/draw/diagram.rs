@@ -7,8 +7,8 @@ use super::block::{Block, LABEL_GAP, Widths};
 use super::control::Control;
 use super::picture::{Anchor, At, Picture, PlaceStyle};
 use super::svg::{RADIUS, width};
-use crate::net::{PlaceId, TransitionId};
-use crate::translate::{Part, PlaceRole, System, TransitionRole};
+use petril_check::translate::{Part, PlaceRole, System, TransitionRole};
+use petril_net::net::{PlaceId, TransitionId};
 
 /// Room around the picture.
 const MARGIN: f64 = 24.0;

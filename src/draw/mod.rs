@@ -17,6 +17,6 @@ mod svg;
 
 pub use diagram::{diagram, surroundings};
 pub use picture::{Anchor, At, DrawnArc, DrawnPlace, DrawnText, DrawnTransition, Head, Picture, PlaceStyle};
-pub use positions::{Point, Positions};
+pub use positions::positions;
 pub use subnet::subnet;
 pub use svg::{BOX_HEIGHT, RADIUS};

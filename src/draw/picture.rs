@@ -1,6 +1,6 @@
 //! A picture of a net as data: where each shape stands. [`Picture::svg`] makes a file of it; a page can make tokens move on it.
 
-use crate::net::{PlaceId, TransitionId};
+use petril_net::net::{PlaceId, TransitionId};
 
 /// A position on the sheet: x to the right, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]

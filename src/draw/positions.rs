@@ -5,7 +5,8 @@
 //! below the other.
 
 use super::control::Control;
-use crate::translate::{PlaceRole, System, TransitionRole};
+use petril_check::translate::{PlaceRole, System, TransitionRole};
+use petril_net::format::pnml::{Point, Positions};
 
 /// Distance of neighbouring columns.
 const COLUMN: i32 = 140;
@@ -14,65 +15,45 @@ const ROW: i32 = 100;
 /// Distance of the first node from both edges.
 const MARGIN: i32 = 60;
 
-/// A position in the plane, in the units of PNML: x to the right, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Point {
-    /// To the right.
-    pub x: i32,
-    /// Down.
-    pub y: i32,
-}
+/// Places the nodes of a system.
+#[must_use]
+pub fn positions(system: &System) -> Positions {
+    let control = Control::of(system);
+    let in_row = (0..control.len()).map(|row| control.transitions(row).len());
+    let bits = 2 + in_row.max().unwrap_or(0);
+    let plant = bits + 3;
+    let tops = component_tops(system);
 
-/// One position for each node of a net, no two the same.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Positions {
-    /// By position of the place.
-    pub places: Vec<Point>,
-    /// By position of the transition.
-    pub transitions: Vec<Point>,
-}
-
-impl Positions {
-    /// Places the nodes of a system.
-    #[must_use]
-    pub fn of(system: &System) -> Self {
-        let control = Control::of(system);
-        let in_row = (0..control.len()).map(|row| control.transitions(row).len());
-        let bits = 2 + in_row.max().unwrap_or(0);
-        let plant = bits + 3;
-        let tops = component_tops(system);
-
-        let mut in_component = vec![0; tops.len()];
-        let mut pairs = system.result_width() as usize;
-        let places = system.net.place_ids().zip(&system.places).map(|(place, &role)| match role {
-            PlaceRole::Result { bit, value } => point(bits + usize::from(value), 2 * bit as usize),
-            PlaceRole::Bit { value, .. } | PlaceRole::Register { value, .. } => {
-                // The two places of a bit follow each other.
-                pairs += usize::from(!value);
-                point(bits + usize::from(value), 2 * (pairs - 1))
+    let mut in_component = vec![0; tops.len()];
+    let mut pairs = system.result_width() as usize;
+    let places = system.net.place_ids().zip(&system.places).map(|(place, &role)| match role {
+        PlaceRole::Result { bit, value } => point(bits + usize::from(value), 2 * bit as usize),
+        PlaceRole::Bit { value, .. } | PlaceRole::Register { value, .. } => {
+            // The two places of a bit follow each other.
+            pairs += usize::from(!value);
+            point(bits + usize::from(value), 2 * (pairs - 1))
+        }
+        PlaceRole::Blocking(component) => point(plant + 1, 2 * tops[component] + 1),
+        PlaceRole::Plant(component) => {
+            in_component[component] += 1;
+            point(plant, 2 * (tops[component] + in_component[component] - 1))
+        }
+        _ => point(0, 2 * control.of_place(place).unwrap_or_default()),
+    });
+    let mut column = vec![0; control.len()];
+    let transitions = system.net.transition_ids().zip(&system.transitions).map(|(id, &role)| {
+        match (role, control.of_transition(id)) {
+            (TransitionRole::Plant { component, transition }, _) => {
+                point(plant + 2, 2 * (tops[component] + transition) + 1)
             }
-            PlaceRole::Blocking(component) => point(plant + 1, 2 * tops[component] + 1),
-            PlaceRole::Plant(component) => {
-                in_component[component] += 1;
-                point(plant, 2 * (tops[component] + in_component[component] - 1))
+            (_, row) => {
+                let row = row.unwrap_or_default();
+                column[row] += 1;
+                point(column[row], 2 * row + 1)
             }
-            _ => point(0, 2 * control.of_place(place).unwrap_or_default()),
-        });
-        let mut column = vec![0; control.len()];
-        let transitions = system.net.transition_ids().zip(&system.transitions).map(|(id, &role)| {
-            match (role, control.of_transition(id)) {
-                (TransitionRole::Plant { component, transition }, _) => {
-                    point(plant + 2, 2 * (tops[component] + transition) + 1)
-                }
-                (_, row) => {
-                    let row = row.unwrap_or_default();
-                    column[row] += 1;
-                    point(column[row], 2 * row + 1)
-                }
-            }
-        });
-        Self { places: places.collect(), transitions: transitions.collect() }
-    }
+        }
+    });
+    Positions { places: places.collect(), transitions: transitions.collect() }
 }
 
 /// The row in which each component of the plant begins.

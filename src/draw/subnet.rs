@@ -4,8 +4,8 @@ use super::block::Block;
 use super::diagram;
 use super::picture::{Anchor, At, Picture, PlaceStyle};
 use super::svg::{BOX_HEIGHT, RADIUS, width};
-use crate::net::PlaceId;
-use crate::translate::{PlaceRole, System, TransitionRole};
+use petril_check::translate::{PlaceRole, System, TransitionRole};
+use petril_net::net::PlaceId;
 
 /// Room around the picture.
 const MARGIN: f64 = 16.0;

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use quick_xml::escape::escape;
 
 use super::picture::{Anchor, At, DrawnArc, DrawnPlace, DrawnText, DrawnTransition, Head, Picture, PlaceStyle};
-use crate::net::{PlaceId, TransitionId};
 use petril_base::printable;
+use petril_net::net::{PlaceId, TransitionId};
 
 /// Radius of a place.
 pub const RADIUS: f64 = 12.0;

@@ -1,13 +1,13 @@
 //! A report together with what it is about, and what its forms have in common.
 
 use super::Provenance;
-use crate::logic::{Origin, View};
-use crate::translate::System;
-use crate::verdict::{Answer, Change, Focus, Independence, Outcome, Report, Trace, Why, Witness};
-use crate::witness::{Shown, firing_table, piecewise_scan_table};
 use petril_base::printable;
 use petril_base::source::Source;
+use petril_check::translate::System;
+use petril_check::verdict::{Answer, Change, Focus, Independence, Outcome, Report, Trace, Why, Witness};
+use petril_check::witness::{Shown, firing_table, piecewise_scan_table};
 use petril_lang::semantics::VarId;
+use petril_logic::{Origin, View};
 
 /// A report, the system it is about, and the text of its program.
 #[derive(Clone, Copy, Debug)]

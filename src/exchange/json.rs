@@ -4,13 +4,13 @@
 use serde_json::{Map, Value, json};
 
 use super::checked::{Checked, Purpose, runs, why};
-use crate::logic::View;
-use crate::translate::{Part, System, TransitionRole};
-use crate::verdict::{Answer, Change, Coverage, Independence, Outcome, Remark, Trace, Why, Witness};
-use crate::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
 use petril_base::diagnostic::Diagnostic;
 use petril_base::source::Source;
+use petril_check::translate::{Part, System, TransitionRole};
+use petril_check::verdict::{Answer, Change, Coverage, Independence, Outcome, Remark, Trace, Why, Witness};
+use petril_check::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
 use petril_lang::semantics::{Role, Type, VarId};
+use petril_logic::View;
 
 /// A last scan that takes more instructions is not told.
 const MAX_INSTRUCTIONS: usize = 1 << 20;
@@ -264,7 +264,7 @@ fn scans(system: &System, trace: &ScanTrace) -> Value {
 
 /// `loop_start` is the number of firings after which the marking was the one the last firing leads to.
 fn firings(system: &System, trace: &FiringTrace) -> Value {
-    let one = |&transition: &crate::net::TransitionId| {
+    let one = |&transition: &petril_net::net::TransitionId| {
         let role = system.transitions[transition.index()];
         let line = match role {
             TransitionRole::Line(line) => Some(line + 1),

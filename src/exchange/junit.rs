@@ -10,9 +10,9 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use super::checked::{Checked, tags, why};
 use super::stamp::Stamp;
-use super::text;
-use crate::verdict::{Answer, Outcome, Verdict};
 use petril_base::printable::{self, line};
+use petril_base::to_text;
+use petril_check::verdict::{Answer, Outcome, Verdict};
 
 type Xml<'o> = Writer<&'o mut Vec<u8>>;
 
@@ -25,7 +25,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
 /// Writes reports as one test suite each, with a name.
 #[must_use]
 pub fn write_all(reports: &[(&str, Checked<'_>, Stamp)]) -> String {
-    text(|out| {
+    to_text(|out| {
         let mut xml = Writer::new_with_indent(out, b' ', 2);
         xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         xml.create_element("testsuites").write_inner_content(|xml| {

@@ -1,44 +1,27 @@
 //! Nets from and to the formats of other tools, properties of nets, and reports for programs; one module for each format.
 //!
-//! Readers take a text and give a [`Located`](crate::net::Located) net, or what it says of nets, or everything that is wrong
+//! Readers take a text and give a [`Located`](petril_net::net::Located) net, or what it says of nets, or everything that is wrong
 //! with the text; writers give a text. What a safe place/transition net cannot express is refused, never left out in silence.
 
 mod checked;
-mod draft;
-mod escape;
 mod notes;
 mod provenance;
 mod stamp;
 mod table;
 
-pub mod andl;
-pub mod dot;
 pub mod html;
-pub mod ina;
 pub mod json;
 pub mod junit;
-pub mod lola;
-pub mod mcc;
 pub mod plcverif;
-pub mod pnml;
 pub mod proof;
 pub mod recorded;
 pub mod report_csv;
 pub mod sarif;
 pub mod sif;
-pub mod tapaal;
-pub mod tina;
 pub mod vcd;
 
 pub use checked::{Checked, Purpose, runs};
-pub use escape::unescaped;
-pub use notes::{Note, Notes};
+pub use notes::notes;
+pub use petril_net::format::{andl, dot, ina, lola, mcc, pnml, tapaal, tina, unescaped};
 pub use provenance::{COMMIT, Provenance, VERSION};
 pub use stamp::Stamp;
-
-/// What a writer writes, as a text.
-fn text(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
-    let mut bytes = Vec::new();
-    write(&mut bytes).expect("memory takes everything that is written to it");
-    String::from_utf8_lossy(&bytes).into_owned()
-}

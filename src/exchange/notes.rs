@@ -1,28 +1,15 @@
 //! What can be said about the nodes of a net beside its structure.
 
-use crate::translate::{Part, PlaceRole, System, TransitionRole};
 use petril_base::source::Source;
+use petril_check::translate::{Part, PlaceRole, System, TransitionRole};
+use petril_net::format::pnml::{Note, Notes};
 
-/// What there is to say about one node: pairs of a word and a value, in the order to be written.
-pub type Note = Vec<(&'static str, String)>;
-
-/// A note on every node of a net.
-#[derive(Clone, Debug, Default)]
-pub struct Notes {
-    /// By position of the place.
-    pub places: Vec<Note>,
-    /// By position of the transition.
-    pub transitions: Vec<Note>,
-}
-
-impl Notes {
-    /// What the nodes of a system net stand for; `source` is the program's text. Lines of code and of text count from 1.
-    #[must_use]
-    pub fn of(system: &System, source: &Source) -> Self {
-        let places = system.places.iter().map(|&role| place(system, source, role)).collect();
-        let transitions = system.transitions.iter().map(|&role| transition(system, source, role)).collect();
-        Self { places, transitions }
-    }
+/// Notes on what the nodes of a system net stand for; `source` is the program's text. Lines of code and of text count from 1.
+#[must_use]
+pub fn notes(system: &System, source: &Source) -> Notes {
+    let places = system.places.iter().map(|&role| place(system, source, role)).collect();
+    let transitions = system.transitions.iter().map(|&role| transition(system, source, role)).collect();
+    Notes { places, transitions }
 }
 
 fn note(part: Part, role: &'static str) -> Note {

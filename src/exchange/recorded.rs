@@ -2,10 +2,10 @@
 
 use serde_json::{Map, Value};
 
-use crate::simulate::Plan;
-use crate::translate::System;
-use crate::verdict::Note;
-use crate::witness::{PlantMove, Scan};
+use petril_check::simulate::Plan;
+use petril_check::translate::System;
+use petril_check::verdict::Note;
+use petril_check::witness::{PlantMove, Scan};
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 

@@ -3,9 +3,9 @@
 
 use super::checked::{Checked, runs, tags, why};
 use super::{Provenance, table};
-use crate::translate::System;
-use crate::verdict::{Answer, Outcome, Trace};
-use crate::witness::firing_story;
+use petril_check::translate::System;
+use petril_check::verdict::{Answer, Outcome, Trace};
+use petril_check::witness::firing_story;
 use petril_lang::semantics::{Role, VarId};
 
 /// The columns of a report.

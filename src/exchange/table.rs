@@ -5,15 +5,15 @@
 
 use std::io;
 
-use super::text;
 use petril_base::printable::line;
+use petril_base::to_text;
 
 /// Signs that begin a formula, those of full width too.
 const BEGINNINGS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
 
 /// Writes rows, which may differ in length.
 pub fn write(rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    text(|out| {
+    to_text(|out| {
         let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(out);
         for row in rows {
             let cells = row.iter().map(|text| cell(text));

@@ -6,9 +6,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::translate::System;
-use crate::witness::{Scan, ScanTrace};
 use petril_base::printable;
+use petril_check::translate::System;
+use petril_check::witness::{Scan, ScanTrace};
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Kind, Role, VarId};
 

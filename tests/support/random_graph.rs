@@ -83,7 +83,7 @@ impl StateSpace for Given {
         };
         told.iter().for_each(|&next| visit(Step::To(&[self.pack(next)])));
         if hidden {
-            visit(Step::Fails(Failure::Scan(Fault::Endless)));
+            visit(Step::Fails(Failure::Scan(Fault::Endless).into()));
         }
     }
 

@@ -4,6 +4,7 @@
 //! text ──syntax──▶ AST ──semantics──▶ Program ──flat──▶ FlatProgram ──interpret──▶ values after each scan
 //! ```
 
+pub mod circuit;
 pub mod flat;
 pub mod interpret;
 pub mod semantics;

@@ -8,12 +8,12 @@ use super::runs::{Runs, shown};
 use crate::exchange::VERSION;
 use crate::exchange::checked::{Checked, runs, tags, why};
 use crate::exchange::stamp::Stamp;
-use crate::explore::Stop;
-use crate::logic::View;
-use crate::translate::Part;
-use crate::verdict::{Answer, Outcome, Remark, Why};
 use petril_base::source::Source;
+use petril_check::translate::Part;
+use petril_check::verdict::{Answer, Outcome, Remark, Why};
 use petril_lang::semantics::{Role, VarId};
+use petril_logic::View;
+use petril_search::Stop;
 
 /// A longer text of a program is shown in part.
 const MAX_SOURCE: usize = 400_000;

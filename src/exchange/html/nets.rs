@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde_json::{Map, Value, json};
 
 use crate::draw::{Anchor, At, Head, Picture, PlaceStyle, subnet, surroundings};
-use crate::net::{PlaceId, TransitionId};
-use crate::translate::{System, TransitionRole};
+use petril_check::translate::{System, TransitionRole};
+use petril_net::net::{PlaceId, TransitionId};
 
 /// A picture with more shapes is not for eyes.
 const MAX_SHAPES: usize = 2000;

@@ -8,12 +8,12 @@ use serde_json::{Map, Value, json};
 
 use super::nets::Nets;
 use crate::exchange::checked::{Checked, Purpose};
-use crate::net::TransitionId;
-use crate::translate::{System, TransitionRole};
-use crate::verdict::{Answer, Focus, Trace, Witness};
-use crate::witness::{Executed, FiringTrace, Piece, ScanTrace, ToldScan, firing_story, story};
+use petril_check::translate::{System, TransitionRole};
+use petril_check::verdict::{Answer, Focus, Trace, Witness};
+use petril_check::witness::{Executed, FiringTrace, Piece, ScanTrace, ToldScan, firing_story, story};
 use petril_lang::flat::value_text;
 use petril_lang::semantics::{Role, VarId};
+use petril_net::net::TransitionId;
 
 /// One run is not told whole if it takes more instructions.
 const MAX_INSTRUCTIONS: usize = 20_000;

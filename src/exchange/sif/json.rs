@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::told::{error_line, reasons};
 use super::{Ran, Sheets};
-use crate::sif::{
+use petril_spec::sif::{
     Coverage, Deviation, Ending, Excluded, Fate, Hunt, Mutant, Plan, SignalId, Specification, Test, TestRun,
 };
 
@@ -57,7 +57,7 @@ fn function(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> Value {
         document
     });
     let tests: Vec<Value> = tests.collect();
-    let cube = |cube: &crate::sif::Cube| json!({ "true": names(&cube.ones), "false": names(&cube.zeros) });
+    let cube = |cube: &petril_spec::sif::Cube| json!({ "true": names(&cube.ones), "false": names(&cube.zeros) });
     json!({
         "function": function.name,
         "title": function.title,
@@ -119,7 +119,7 @@ fn result(sheets: &Sheets<'_>, ran: &Ran<'_>, made: &TestRun) -> Value {
 /// What tests find and miss.
 #[must_use]
 pub fn coverage(specification: &Specification, coverage: &Coverage) -> Value {
-    let class = |class: &crate::sif::ClassCoverage| {
+    let class = |class: &petril_spec::sif::ClassCoverage| {
         json!({
             "class": class.class,
             "faults": class.faults,
@@ -128,7 +128,7 @@ pub fn coverage(specification: &Specification, coverage: &Coverage) -> Value {
             "undecided": class.undecided,
         })
     };
-    let missed = |missed: &crate::sif::Missed| {
+    let missed = |missed: &petril_spec::sif::Missed| {
         let inputs: Vec<SignalId> = specification.inputs().filter(|id| missed.shown_by.contains(id.0)).collect();
         json!({
             "class": missed.class,

@@ -8,16 +8,17 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use super::told::{brief, reasons};
 use super::{Ran, Sheets};
-use crate::exchange::{Stamp, text};
-use crate::sif::{Plan, PlanRun, Test, TestRun};
+use crate::exchange::Stamp;
 use petril_base::printable::line;
+use petril_base::to_text;
+use petril_spec::sif::{Plan, PlanRun, Test, TestRun};
 
 type Xml<'o> = Writer<&'o mut Vec<u8>>;
 
 /// Writes the results of a run.
 #[must_use]
 pub fn write(sheets: &Sheets<'_>, ran: &Ran<'_>, stamp: Stamp) -> String {
-    text(|out| {
+    to_text(|out| {
         let mut xml = Writer::new_with_indent(out, b' ', 2);
         xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         xml.create_element("testsuites").write_inner_content(|xml| {

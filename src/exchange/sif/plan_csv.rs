@@ -8,10 +8,10 @@ use fixedbitset::FixedBitSet;
 
 use super::Sheets;
 use crate::exchange::table::{self, uncovered};
-use crate::sif::{Coverage, Criterion, Kind, Plan, SignalId, Specification, Test};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{Source, Span};
 use petril_lang::syntax::ast::key;
+use petril_spec::sif::{Coverage, Criterion, Kind, Plan, SignalId, Specification, Test};
 
 /// The columns that are no signals.
 const COLUMNS: [&str; 4] = ["test", "function", "criterion", "purpose"];

@@ -1,10 +1,10 @@
 //! What is said of a test and of what became of it.
 
 use super::{Ran, Sheets};
-use crate::explore::Failure;
-use crate::sif::{Ending, Plan, SignalId, Test, TestRun};
+use petril_check::scans::Failure;
 use petril_lang::flat::Hazard;
 use petril_lang::interpret::Fault;
+use petril_spec::sif::{Ending, Plan, SignalId, Test, TestRun};
 
 /// TRUE or FALSE.
 pub fn truth(value: bool) -> &'static str {
@@ -27,7 +27,7 @@ pub fn reasons(sheets: &Sheets<'_>, ran: &Ran<'_>, test: &TestRun) -> Vec<String
     match &test.ending {
         Ending::Passed => Vec::new(),
         Ending::Failed(deviations) => {
-            let one = |deviation: &crate::sif::Deviation| {
+            let one = |deviation: &petril_spec::sif::Deviation| {
                 let name = sheets.specification.name(deviation.output);
                 if deviation.early {
                     return format!(

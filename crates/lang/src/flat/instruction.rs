@@ -136,16 +136,22 @@ pub enum Hazard {
 impl Hazard {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Overflow, Self::DivisionByZero, Self::Index, Self::Subrange];
-}
 
-impl fmt::Display for Hazard {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+    /// Name of the check that looks for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
             Self::Overflow => "overflow",
             Self::DivisionByZero => "division-by-zero",
             Self::Index => "index",
             Self::Subrange => "subrange",
-        })
+        }
+    }
+}
+
+impl fmt::Display for Hazard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

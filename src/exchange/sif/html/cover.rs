@@ -6,8 +6,8 @@ use super::markup::{code, counted, escaped, row, table};
 use crate::exchange::Provenance;
 use crate::exchange::sif::told::made_by;
 use crate::exchange::sif::{Ran, Sheets};
-use crate::sif::{Criterion, Start};
 use petril_base::source::Source;
+use petril_spec::sif::{Criterion, Start};
 
 /// The cover.
 pub fn cover(sheets: &Sheets<'_>, title: &str) -> String {

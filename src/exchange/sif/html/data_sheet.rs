@@ -4,7 +4,7 @@ use super::markup::{code, escaped, row, table};
 use super::{delay, latch, once, paper, restrictions};
 use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::truth;
-use crate::sif::{Binding, Kind, Plan, SignalId, Specification};
+use petril_spec::sif::{Binding, Kind, Plan, SignalId, Specification};
 
 /// The data sheet.
 pub fn data_sheet(sheets: &Sheets<'_>, plan: &Plan) -> String {

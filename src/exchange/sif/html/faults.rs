@@ -2,7 +2,7 @@
 
 use super::markup::{counted, escaped, row, table, ticked};
 use crate::exchange::sif::Ran;
-use crate::sif::{Coverage, Fate, Hunt, Mutant, SignalId, Specification};
+use petril_spec::sif::{Coverage, Fate, Hunt, Mutant, SignalId, Specification};
 
 /// So many faults are listed at most.
 const MAX_LISTED: usize = 60;
@@ -12,7 +12,7 @@ pub fn coverage(specification: &Specification, coverage: &Coverage) -> String {
     if coverage.classes.is_empty() {
         return String::new();
     }
-    let sum = |of: fn(&crate::sif::ClassCoverage) -> usize| coverage.classes.iter().map(of).sum::<usize>();
+    let sum = |of: fn(&petril_spec::sif::ClassCoverage) -> usize| coverage.classes.iter().map(of).sum::<usize>();
     let undecided = sum(|class| class.undecided);
     let seen = sum(|class| class.faults) - sum(|class| class.equivalent) - undecided;
     let killed = sum(|class| class.killed);
@@ -29,7 +29,7 @@ pub fn coverage(specification: &Specification, coverage: &Coverage) -> String {
         table("plain counts", &heads, rows)
     );
     if !coverage.missed.is_empty() {
-        let line = |missed: &crate::sif::Missed| {
+        let line = |missed: &petril_spec::sif::Missed| {
             let inputs: Vec<SignalId> = specification.inputs().filter(|id| missed.shown_by.contains(id.0)).collect();
             let names: Vec<&str> = inputs.iter().map(|&id| specification.name(id)).collect();
             let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };

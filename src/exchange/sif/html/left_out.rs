@@ -4,7 +4,7 @@ use fixedbitset::FixedBitSet;
 
 use super::markup::{code, escaped, row, table};
 use crate::exchange::sif::Sheets;
-use crate::sif::{Excluded, SignalId};
+use petril_spec::sif::{Excluded, SignalId};
 
 /// What is left out of the tests of a function.
 pub fn left_out(sheets: &Sheets<'_>, excluded: &Excluded) -> String {

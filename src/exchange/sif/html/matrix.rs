@@ -2,7 +2,7 @@
 
 use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::truth;
-use crate::sif::{Plan, SignalId, Test};
+use petril_spec::sif::{Plan, SignalId, Test};
 
 use super::markup::escaped;
 use super::once;

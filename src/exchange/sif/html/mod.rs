@@ -20,8 +20,8 @@ use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest as _, Sha256};
 
 use super::Sheets;
-use crate::sif::{Formula, Kind, SignalId, Specification};
 use markup::escaped;
+use petril_spec::sif::{Formula, Kind, SignalId, Specification};
 
 /// How the page looks, on screens and on paper.
 const STYLE: &str = include_str!("protocol.css");
@@ -56,7 +56,7 @@ pub fn write(sheets: &Sheets<'_>) -> String {
 
 /// The restrictions that speak of what a function depends on, by their positions.
 fn restrictions(specification: &Specification, function: usize) -> impl Iterator<Item = usize> + '_ {
-    let cone = crate::sif::Cone::of_function(specification, function);
+    let cone = petril_spec::sif::Cone::of_function(specification, function);
     let kept =
         move |at: &usize| cone.restrictions.iter().any(|own| std::ptr::eq(*own, &specification.restrictions[*at]));
     (0..specification.restrictions.len()).filter(kept)

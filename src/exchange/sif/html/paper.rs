@@ -1,6 +1,6 @@
 //! Formulas for people: parentheses wherever two operators meet, and a line for each operand of a long one.
 
-use crate::sif::{Formula, Operator, SignalId, Specification};
+use petril_spec::sif::{Formula, Operator, SignalId, Specification};
 
 /// A formula is broken into lines if it is longer.
 const MAX_LINE: usize = 72;

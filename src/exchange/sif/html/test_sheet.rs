@@ -6,7 +6,7 @@ use super::matrix::Matrix;
 use super::{delay, latch};
 use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::{made_by, reasons};
-use crate::sif::{Ending, Plan, SignalId, TestRun};
+use petril_spec::sif::{Ending, Plan, SignalId, TestRun};
 
 /// The sheet of a plan.
 pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {

@@ -16,6 +16,7 @@ pub use instruction::{
 pub use literal::{Constant, Literal};
 pub use operator::{Operator, Verb};
 
+pub use petril_base::key;
 use petril_base::source::Span;
 
 /// A file: its program organisation units and what stands around them, each in the order of the text (IEC 61131-3, B.1.5).
@@ -52,12 +53,6 @@ impl Name {
     pub fn is(&self, word: &str) -> bool {
         self.text.eq_ignore_ascii_case(word)
     }
-}
-
-/// A name in the one spelling that all its spellings share.
-#[must_use]
-pub fn key(name: &str) -> String {
-    name.to_ascii_uppercase()
 }
 
 /// The three kinds of program organisation unit (POU).

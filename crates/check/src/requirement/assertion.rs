@@ -1,0 +1,94 @@
+//! Assertions: what must be so whenever control comes to an instruction.
+
+use super::assumption::looks_back_one_scan;
+use super::bind::bind;
+use crate::translate::{PlaceRole, System};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_lang::syntax::without_comments;
+use petril_logic::Bound;
+use petril_logic::Quantifier;
+use petril_logic::View;
+use petril_logic::{AssertionText, Origin};
+
+/// An assertion in a program.
+#[derive(Clone, Debug)]
+pub struct Assertion {
+    /// Its name.
+    pub name: String,
+    /// What it says in the words of its author.
+    pub sentence: Option<String>,
+    /// As it was written.
+    pub text: String,
+    /// Where it stands.
+    pub origin: Origin,
+    /// What must be so.
+    pub formula: Bound,
+    /// The lines of flat code, from 0, that it is about: one for each time its unit is called.
+    pub lines: Vec<usize>,
+}
+
+/// Binds an assertion that stands in this text, which the program was made from.
+///
+/// # Errors
+/// It stands before no instruction, or it is no formula about one moment of a scan.
+pub fn bind_assertion(
+    assertion: &AssertionText,
+    program: &str,
+    system: &System,
+    view: View,
+) -> Result<Assertion, Vec<Diagnostic>> {
+    let unfit = |message: &str, help: &str| {
+        Err(vec![Diagnostic::new(Code::AssertionUnfit, assertion.span, message).help(help)])
+    };
+    let formula = bind(&assertion.formula, system, view)?;
+    if !formula.is_state_formula() {
+        return unfit("an assertion cannot look ahead", "it is about the moment before an instruction");
+    }
+    if !looks_back_one_scan(&formula) {
+        return unfit(
+            "an assertion can look back one scan only",
+            "`pre(x)` is what x was at the end of the scan before",
+        );
+    }
+    let lines = lines_behind(assertion.span.end, program, system);
+    if lines.is_empty() {
+        let help = "put it before an instruction; what is so at the end of a scan is a requirement: `AG (…)`";
+        return unfit("no instruction of the program follows this assertion", help);
+    }
+    let AssertionText { name, sentence, text, origin, .. } = assertion.clone();
+    let name = name.unwrap_or_else(|| format!("assert_{}", origin.line));
+    Ok(Assertion { name, sentence, text, origin, formula, lines })
+}
+
+/// The lines of flat code that the instruction behind an offset begins with, if it stands in the same unit.
+fn lines_behind(offset: usize, program: &str, system: &System) -> Vec<usize> {
+    let code = &system.program.code;
+    let Some(start) = code.iter().map(|line| line.span.start).filter(|&start| start >= offset).min() else {
+        return Vec::new();
+    };
+    let between = without_comments(program).get(offset..start).unwrap_or_default().to_ascii_uppercase();
+    if ["END_PROGRAM", "END_FUNCTION"].iter().any(|end| between.contains(end)) {
+        return Vec::new();
+    }
+    let begins = |line: usize| {
+        let of_it = |line: usize| code[line].span.start == start;
+        of_it(line) && (line == 0 || !of_it(line - 1))
+    };
+    (0..code.len()).filter(|&line| begins(line)).collect()
+}
+
+impl Assertion {
+    /// The assertion as a formula of the transition view.
+    #[must_use]
+    pub fn as_formula(&self, system: &System) -> Bound {
+        let at = |line: &usize| Bound::Marked(system.place(PlaceRole::Line(*line)));
+        let somewhere = self.lines.iter().map(at).reduce(|f, g| Bound::Or(Box::new(f), Box::new(g)));
+        let there = Box::new(somewhere.unwrap_or(Bound::Truth(false)));
+        Bound::Until {
+            quantifier: Quantifier::All,
+            weak: true,
+            hold: Box::new(Bound::Implies(there, Box::new(self.formula.clone()))),
+            release: Box::new(Bound::Truth(false)),
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! What a requirement asks of a program, once its names mean something.
+
+use super::bind::bind;
+use crate::translate::System;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_logic::Bound;
+use petril_logic::View;
+use petril_logic::{Body, Requirement};
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub enum Demand {
+    /// That a formula is true in every initial state.
+    Formula(Bound),
+    /// That a formula, which says that something is possible, is true in some initial state: some run from power-on shows it.
+    Possible(Bound),
+    /// That some scan comes to every line.
+    EveryLine,
+}
+
+impl Demand {
+    /// The formula, if it is one.
+    #[must_use]
+    pub fn formula(&self) -> Option<&Bound> {
+        match self {
+            Self::Formula(formula) | Self::Possible(formula) => Some(formula),
+            Self::EveryLine => None,
+        }
+    }
+
+    /// The formula as text, or the pattern where the formula says something else.
+    #[must_use]
+    pub fn text(&self, system: &System) -> Option<String> {
+        match self {
+            Self::Formula(formula) => Some(formula.text(system)),
+            Self::Possible(formula) => Some(match formula.possibility() {
+                Some(goal) => format!("reachability({})", goal.text(system)),
+                None => formula.text(system),
+            }),
+            Self::EveryLine => None,
+        }
+    }
+}
+
+/// Binds what a requirement asks for.
+///
+/// # Errors
+/// As for [`bind`]; and what the view does not have.
+pub fn bind_requirement(requirement: &Requirement, system: &System, view: View) -> Result<Demand, Vec<Diagnostic>> {
+    match &requirement.body {
+        Body::Formula(formula) => bind(formula, system, view).map(Demand::Formula),
+        Body::Possible(formula) => bind(formula, system, view).map(Demand::Possible),
+        Body::EveryLine if view == View::Scan => Ok(Demand::EveryLine),
+        Body::EveryLine => {
+            let message = "whether every line is reachable is checked in the scan view only";
+            let help = "in the transition view, ask for `EF at line 1`, `EF at line 2`, …";
+            Err(vec![Diagnostic::new(Code::RequirementView, requirement.span, message).help(help)])
+        }
+    }
+}
+
+impl From<Bound> for Demand {
+    fn from(formula: Bound) -> Self {
+        Self::Formula(formula)
+    }
+}

@@ -1,0 +1,21 @@
+//! Requirements about a program: what their names mean in its system, in one of its views.
+
+mod assertion;
+mod assumption;
+mod bind;
+mod demand;
+mod domain;
+mod fairness;
+mod names;
+mod program;
+mod representatives;
+mod valuations;
+
+pub use assertion::{Assertion, bind_assertion};
+pub use assumption::{Assumed, Assumption, Moment, bind_assumption};
+pub use bind::bind;
+pub use demand::{Demand, bind_requirement};
+pub use domain::bind_domain;
+pub use fairness::{always_scanning, bind_fairness};
+pub use representatives::representatives;
+pub use valuations::{Remembering, RememberingValuation, ScanValuation};

@@ -1,0 +1,37 @@
+//! The requirement that some scan comes to every line.
+
+use super::failing::what_is_missing;
+use super::remarks::dead_pieces;
+use super::views::{ScanView, SystemView};
+use super::{Note, Outcome, Witness};
+use crate::scans::never_executed;
+
+/// Looks for lines that no scan executes.
+pub fn outcome(view: &ScanView<'_>) -> Outcome {
+    let graph = &view.graph;
+    let Some(&first) = graph.initial().first().filter(|_| graph.is_complete()) else {
+        return Outcome::Unknown(what_is_missing(graph));
+    };
+    let never = never_executed(&view.space, graph, &mut || false).unwrap_or_default();
+    let never = dead_pieces(&view.system().program, &never);
+    if never.is_empty() {
+        return Outcome::holds();
+    }
+    // No run shows what no run does; the shortest one is as good as any.
+    match view.replayed(&[graph.state(first)], None, &|_, _| Ok(())) {
+        Ok(trace) => {
+            let program = &view.system().program;
+            let notes = never.into_iter().map(|line| {
+                let instruction = program.text(program.code[line].instruction);
+                let words = instruction.split_whitespace().collect::<Vec<_>>().join(" ");
+                Note {
+                    first: 0,
+                    last: 0,
+                    text: format!("no scan ever comes to line {} of the flat code (`{words}`)", line + 1),
+                }
+            });
+            Outcome::Violated(Witness { trace, notes: notes.collect() }, None)
+        }
+        Err(disagreement) => super::check::disagreed(&disagreement.to_string()),
+    }
+}

@@ -1,0 +1,84 @@
+//! Requirements that hold whatever the program does.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+use crate::requirement::Assumption;
+use crate::translate::System;
+use petril_lang::semantics::Role;
+use petril_logic::Bound;
+
+/// On what a requirement that holds does not depend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Independence {
+    /// It is true of every system, as `a | !a` is.
+    OfEverything,
+    /// It speaks of inputs alone, and these do not depend on what the program puts out: it tests the plant.
+    OfTheProgram,
+}
+
+/// Parts whose values are all tried.
+const MOST: usize = 12;
+
+/// What a requirement that holds does not depend on, as far as the formula tells.
+pub fn independence(formula: &Bound, system: &System, assumptions: &[Assumption]) -> Option<Independence> {
+    if is_always_true(formula) {
+        return Some(Independence::OfEverything);
+    }
+    let variables = formula.mentions().variables;
+    // What is assumed of inputs may depend on outputs, too.
+    let assumed = assumptions.iter().flat_map(|assumption| assumption.formula.mentions().variables);
+    let alone = variables.iter().copied().chain(assumed).all(|variable| {
+        let devices = system.plant.driver(variable).map(|device| &system.plant.components[device]);
+        let reacts = devices.is_some_and(|device| device.transitions.iter().any(|t| !t.tests.is_empty()));
+        system.program.variable(variable).role == Role::Input && !reacts
+    });
+    (alone && !variables.is_empty()).then_some(Independence::OfTheProgram)
+}
+
+/// Whether a formula is true whatever its parts are. Paths end only in states without steps, of which a system has none.
+fn is_always_true(formula: &Bound) -> bool {
+    match formula {
+        Bound::Next(_, f) => is_always_true(f),
+        Bound::Until { weak, hold, release, .. } => is_always_true(release) || (*weak && is_always_true(hold)),
+        Bound::And(f, g) => is_always_true(f) && is_always_true(g),
+        Bound::Implies(_, g) if is_always_true(g) => true,
+        Bound::Or(f, g) if is_always_true(f) || is_always_true(g) => true,
+        _ => {
+            let mut parts = BTreeMap::new();
+            collect(formula, &mut parts);
+            let count = parts.len();
+            count <= MOST && (0..1_u32 << count).all(|values| value(formula, &parts, values))
+        }
+    }
+}
+
+/// Numbers the parts that have no Boolean operator outside.
+fn collect(formula: &Bound, parts: &mut BTreeMap<String, usize>) {
+    match formula {
+        Bound::Truth(_) => {}
+        Bound::Not(f) => collect(f, parts),
+        Bound::And(f, g) | Bound::Or(f, g) | Bound::Implies(f, g) | Bound::Iff(f, g) => {
+            collect(f, parts);
+            collect(g, parts);
+        }
+        _ => {
+            let number = parts.len();
+            parts.entry(format!("{formula:?}")).or_insert(number);
+        }
+    }
+}
+
+/// The value of a formula whose parts have these values.
+fn value(formula: &Bound, parts: &BTreeMap<String, usize>, values: u32) -> bool {
+    let of = |f: &Bound| value(f, parts, values);
+    match formula {
+        Bound::Truth(truth) => *truth,
+        Bound::Not(f) => !of(f),
+        Bound::And(f, g) => of(f) && of(g),
+        Bound::Or(f, g) => of(f) || of(g),
+        Bound::Implies(f, g) => !of(f) || of(g),
+        Bound::Iff(f, g) => of(f) == of(g),
+        _ => parts.get(&format!("{formula:?}")).is_some_and(|number| values >> number & 1 == 1),
+    }
+}

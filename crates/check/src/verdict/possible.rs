@@ -1,0 +1,45 @@
+//! Judgements on what is possible: that some run from power-on shows it.
+
+use super::Outcome;
+use super::check::{Judge, Labelled, STOPPED, disagreed};
+use super::failing::what_is_missing;
+use petril_logic::Bound;
+
+impl Judge<'_> {
+    /// Whether a formula that says that something is possible is true in some initial state. A run from there is its witness. It is
+    /// violated if it is false in all of them.
+    pub(super) fn outcome_of_possibility(&self, formula: &Bound) -> Outcome {
+        let Self { graph, .. } = *self;
+        let Some(labelled) = self.labelled(formula) else { return STOPPED };
+        match self.shown(&labelled, labelled.yes) {
+            Some(Ok((witness, _))) => return self.holds(formula, Some(witness)),
+            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
+            None => {}
+        }
+        let is_false = graph.initial().iter().all(|&state| labelled.labels.of(labelled.no).contains(state as usize));
+        if let Some(reason) = self.undecided(is_false) {
+            return Outcome::Unknown(reason);
+        }
+        // No run shows what no run does; the one that is shown is as good as any.
+        self.broken(&labelled).unwrap_or_else(|| Outcome::Unknown(what_is_missing(graph)))
+    }
+
+    /// That a formula about what is possible, which is false in some initial state, is true in another one, in words.
+    pub(super) fn elsewhere(&self, labelled: &Labelled<'_>) -> Option<String> {
+        let Labelled { formula, dag, yes, labels, .. } = labelled;
+        let is_true = |&state: &u32| self.counts(state) && labels.of(*yes).contains(state as usize);
+        if !dag.is_existential(*yes) || !self.graph.initial().iter().any(is_true) {
+            return None;
+        }
+        let system = self.view.system();
+        let mut sentence = format!(
+            "After other first scans `{}` is true, but a requirement must be true after every first scan",
+            formula.text(system)
+        );
+        if let Some(goal) = formula.possibility() {
+            let goal = goal.text(system);
+            sentence += &format!("; `reachability({goal})` asks whether some run from power-on comes there");
+        }
+        Some(sentence)
+    }
+}

@@ -1,0 +1,358 @@
+//! A scan as gates: flat code is executed once, with wires instead of bits.
+//!
+//! Where control divides, each part knows when it is the one that is executed; where parts meet again, what they disagree on
+//! is chosen by that. A program whose control goes back is left to the interpreter, and so is one that would take too many gates;
+//! whoever computes with the gates also leaves it those that multiply, divide, or shift by what they compute.
+
+use std::collections::BTreeMap;
+
+use super::gates::{Network, Wire};
+use super::numbers::{self, complement, constant, resized};
+use super::products;
+use crate::flat::{Condition, Element, FlatProgram, Function, Hazard, Instruction, Operand, Target, Tolerated};
+use crate::semantics::{Type, VarId};
+
+/// What a scan computes from the bits of all variables.
+pub(super) struct Compiled {
+    pub(super) network: Network,
+    /// The bits of each variable at the end of the scan.
+    pub(super) memory: Vec<Vec<Wire>>,
+    /// When the scan meets an error first in this line.
+    pub(super) errors: Vec<(Wire, usize, Hazard)>,
+    /// When control comes to the lines from this one on, up to that of the next entry.
+    pub(super) lines: Vec<(usize, Wire)>,
+}
+
+/// How large a network may be, and what it may be made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Gates, at most.
+    gates: usize,
+    /// Whether products, quotients, and shifts by what is computed are made. They take thousands of gates for one instruction.
+    products: bool,
+}
+
+impl Limits {
+    /// For gates that compute scans: the interpreter takes about as long for a line as 256 lanes take for a hundred gates.
+    pub(super) fn for_lanes(program: &FlatProgram) -> Self {
+        Self { gates: (program.end() * 100).clamp(1000, 1 << 18), products: false }
+    }
+
+    /// For gates that are reasoned about.
+    pub(super) const FOR_PROOFS: Self = Self { gates: 1 << 22, products: true };
+}
+
+/// Bits of an array that is indexed, at most.
+const ARRAY_BITS: usize = 1 << 15;
+
+/// Why gates do not serve, with the line (from 0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoGates {
+    /// Control goes back there, so the scan may have any length.
+    Back(usize),
+    /// What is computed there is left to the interpreter.
+    Instruction(usize),
+    /// There are too many by then.
+    TooMany(usize),
+}
+
+impl NoGates {
+    /// The line.
+    #[must_use]
+    pub fn line(self) -> usize {
+        let (Self::Back(line) | Self::Instruction(line) | Self::TooMany(line)) = self;
+        line
+    }
+}
+
+/// Compiles a scan that begins with these bits of each variable, wires of a network with so many inputs.
+pub(super) fn compile(
+    program: &FlatProgram,
+    tolerated: Tolerated,
+    inputs: usize,
+    beginning: &[Vec<Wire>],
+    limits: Limits,
+) -> Result<Compiled, NoGates> {
+    let network = Network::new(inputs);
+    let mut memory = Vec::new();
+    let mut starts = vec![0];
+    for (variable, bits) in program.variables.iter().zip(beginning) {
+        memory.extend(resized(bits, variable.ty.width as usize));
+        starts.push(memory.len());
+    }
+    let mut compiler = Compiler { program, tolerated, limits, network, starts, errors: Vec::new(), lines: Vec::new() };
+    let start = Flow { active: Wire::TRUE, result: Vec::new(), memory };
+    // Without a way to the end, every scan meets an error.
+    let end = compiler.run(start.clone())?.unwrap_or(start);
+    let Compiler { network, starts, errors, lines, .. } = compiler;
+    let memory = starts.windows(2).map(|range| end.memory[range[0]..range[1]].to_vec()).collect();
+    Ok(Compiled { network, memory, errors, lines })
+}
+
+struct Compiler<'p> {
+    program: &'p FlatProgram,
+    tolerated: Tolerated,
+    limits: Limits,
+    network: Network,
+    /// Where the bits of each variable begin.
+    starts: Vec<usize>,
+    errors: Vec<(Wire, usize, Hazard)>,
+    lines: Vec<(usize, Wire)>,
+}
+
+/// What is known where control is.
+#[derive(Clone)]
+struct Flow {
+    /// When control comes here.
+    active: Wire,
+    result: Vec<Wire>,
+    memory: Vec<Wire>,
+}
+
+impl Compiler<'_> {
+    /// What is known at the end, if control comes there.
+    fn run(&mut self, start: Flow) -> Result<Option<Flow>, NoGates> {
+        let end = self.program.end();
+        // What comes to a line by jumps.
+        let mut arriving: BTreeMap<usize, Flow> = BTreeMap::new();
+        let mut flow = Some(start);
+        for line in 0..end {
+            flow = self.joined(flow, arriving.remove(&line));
+            self.note(line, flow.as_ref());
+            let Some(now) = &mut flow else { continue };
+            if let Instruction::Jump { condition, target } = self.program.code[line].instruction {
+                if target <= line {
+                    return Err(NoGates::Back(line));
+                }
+                let jumps = match condition {
+                    Condition::Always => Wire::TRUE,
+                    Condition::IfTrue => resized(&now.result, 1)[0],
+                    Condition::IfFalse => !resized(&now.result, 1)[0],
+                };
+                let active = self.network.and(now.active, jumps);
+                if active != Wire::FALSE {
+                    let jumping = Flow { active, ..now.clone() };
+                    let earlier = arriving.remove(&target);
+                    arriving.extend(self.joined(earlier, Some(jumping)).map(|flow| (target, flow)));
+                }
+                now.active = self.network.and(now.active, !jumps);
+                if now.active == Wire::FALSE {
+                    flow = None;
+                }
+            } else {
+                self.execute(line, now)?;
+            }
+            if self.network.gates().len() > self.limits.gates {
+                return Err(NoGates::TooMany(line));
+            }
+        }
+        flow = self.joined(flow, arriving.remove(&end));
+        self.note(end, flow.as_ref());
+        Ok(flow)
+    }
+
+    /// Notes when control comes to a line.
+    fn note(&mut self, line: usize, flow: Option<&Flow>) {
+        let active = flow.map_or(Wire::FALSE, |flow| flow.active);
+        if self.lines.last().is_none_or(|(_, before)| *before != active) {
+            self.lines.push((line, active));
+        }
+    }
+
+    /// Two parts of control as one.
+    fn joined(&mut self, a: Option<Flow>, b: Option<Flow>) -> Option<Flow> {
+        let (mut a, b) = match (a, b) {
+            (Some(a), Some(b)) => (a, b),
+            (a, b) => return a.or(b),
+        };
+        let width = a.result.len().max(b.result.len());
+        a.result = self.chosen(b.active, &resized(&b.result, width), &resized(&a.result, width));
+        a.memory = self.chosen(b.active, &b.memory, &a.memory);
+        a.active = self.network.or(a.active, b.active);
+        Some(a)
+    }
+
+    fn chosen(&mut self, condition: Wire, yes: &[Wire], no: &[Wire]) -> Vec<Wire> {
+        yes.iter().zip(no).map(|(&yes, &no)| self.network.choose(condition, yes, no)).collect()
+    }
+
+    /// Executes an instruction that is no jump.
+    fn execute(&mut self, line: usize, flow: &mut Flow) -> Result<(), NoGates> {
+        match self.program.code[line].instruction {
+            Instruction::Load { ty, negated, operand } => {
+                flow.result = complement(&self.operand(line, flow, operand, ty)?, negated);
+            }
+            Instruction::Store { ty, negated, target } => {
+                let value = complement(&resized(&flow.result, ty.width as usize), negated);
+                self.write(line, flow, target, &mut |_, old| resized(&value, old.len()))?;
+            }
+            Instruction::Set(target) => {
+                let set = resized(&flow.result, 1)[0];
+                self.write(line, flow, target, &mut |network, old| vec![network.or(old[0], set)])?;
+            }
+            Instruction::Reset(target) => {
+                let reset = resized(&flow.result, 1)[0];
+                self.write(line, flow, target, &mut |network, old| vec![network.and(old[0], !reset)])?;
+            }
+            Instruction::Complement(ty) => {
+                flow.result = complement(&resized(&flow.result, ty.width as usize), true);
+            }
+            Instruction::Combine { function, ty, negated, operand } => {
+                self.combine(line, flow, function, ty, negated, operand)?;
+            }
+            Instruction::Convert { from, to } => {
+                let bits = resized(&flow.result, from.width as usize);
+                let (result, overflow) = numbers::convert(&mut self.network, from, to, &bits);
+                flow.result = result;
+                self.meet(flow, overflow, line, Hazard::Overflow);
+            }
+            Instruction::Bound { ty, lower, upper, hazard } => {
+                let bits = resized(&flow.result, ty.width as usize);
+                let inside = numbers::is_between(&mut self.network, ty, &bits, lower, upper);
+                if hazard == Hazard::Index {
+                    flow.result = self.chosen(inside, &bits, &constant(ty.pattern(lower), bits.len()));
+                }
+                self.meet(flow, !inside, line, hazard);
+            }
+            Instruction::Jump { .. } => return Err(NoGates::Instruction(line)),
+        }
+        Ok(())
+    }
+
+    fn combine(
+        &mut self,
+        line: usize,
+        flow: &mut Flow,
+        function: Function,
+        ty: Type,
+        negated: bool,
+        operand: Operand,
+    ) -> Result<(), NoGates> {
+        let a = resized(&flow.result, ty.width as usize);
+        let unfit = NoGates::Instruction(line);
+        if matches!(function, Function::Shl | Function::Shr | Function::Rol | Function::Ror) {
+            flow.result = match operand {
+                Operand::Constant(distance) => {
+                    numbers::shift(function, &a, if negated { !distance & ty.mask() } else { distance }).ok_or(unfit)?
+                }
+                Operand::Place(_) if self.limits.products => {
+                    let width = if negated { ty.width as usize } else { u64::BITS as usize };
+                    let distance = complement(&resized(&self.place(line, flow, operand)?, width), negated);
+                    products::shift(&mut self.network, function, &a, &distance)
+                }
+                Operand::Place(_) => return Err(unfit),
+            };
+            return Ok(());
+        }
+        let b = complement(&self.operand(line, flow, operand, ty)?, negated);
+        let network = &mut self.network;
+        let mut each = |gate: fn(&mut Network, Wire, Wire) -> Wire| -> Vec<Wire> {
+            a.iter().zip(&b).map(|(&a, &b)| gate(network, a, b)).collect()
+        };
+        flow.result = match function {
+            Function::And => each(Network::and),
+            Function::Or => each(Network::or),
+            Function::Xor => each(Network::xor),
+            Function::Add | Function::Sub => {
+                let (sum, overflow) = numbers::sum(network, ty, &a, &b, function == Function::Sub);
+                self.meet(flow, overflow, line, Hazard::Overflow);
+                sum
+            }
+            Function::Mul if self.limits.products => {
+                let (product, overflow) = products::product(network, ty, &a, &b);
+                self.meet(flow, overflow, line, Hazard::Overflow);
+                product
+            }
+            Function::Div | Function::Mod if self.limits.products => {
+                let by_zero = !network.any(b.iter().copied());
+                let divided = products::quotient(network, ty, &a, &b);
+                let (number, overflow) = match function {
+                    Function::Div => (divided.quotient, divided.overflow),
+                    _ => (divided.remainder, Wire::FALSE),
+                };
+                self.meet(flow, by_zero, line, Hazard::DivisionByZero);
+                self.meet(flow, overflow, line, Hazard::Overflow);
+                number
+            }
+            _ => vec![numbers::compare(network, function, ty, &a, &b).ok_or(unfit)?],
+        };
+        Ok(())
+    }
+
+    /// Control goes on only where there is no error.
+    fn meet(&mut self, flow: &mut Flow, condition: Wire, line: usize, hazard: Hazard) {
+        if !self.tolerated.allows(hazard) {
+            let met = self.network.and(flow.active, condition);
+            if met != Wire::FALSE {
+                self.errors.push((met, line, hazard));
+                flow.active = self.network.and(flow.active, !condition);
+            }
+        }
+    }
+
+    fn range(&self, variable: VarId) -> std::ops::Range<usize> {
+        self.starts[variable.0]..self.starts[variable.0 + 1]
+    }
+
+    fn operand(&mut self, line: usize, flow: &Flow, operand: Operand, ty: Type) -> Result<Vec<Wire>, NoGates> {
+        let width = ty.width as usize;
+        match operand {
+            Operand::Constant(pattern) => Ok(constant(pattern, width)),
+            Operand::Place(_) => Ok(resized(&self.place(line, flow, operand)?, width)),
+        }
+    }
+
+    /// All bits of an operand.
+    fn place(&mut self, line: usize, flow: &Flow, operand: Operand) -> Result<Vec<Wire>, NoGates> {
+        Ok(match operand {
+            Operand::Constant(pattern) => constant(pattern, u64::BITS as usize),
+            Operand::Place(Target::Variable(variable)) => flow.memory[self.range(variable)].to_vec(),
+            Operand::Place(Target::Element(element)) => {
+                let width = self.range(element.first).len();
+                let hits = self.hits(line, flow, element)?;
+                let mut value = vec![Wire::FALSE; width];
+                for (variable, hit) in hits {
+                    let bits = resized(&flow.memory[self.range(variable)], width);
+                    value = self.chosen(hit, &bits, &value);
+                }
+                value
+            }
+        })
+    }
+
+    fn write(
+        &mut self,
+        line: usize,
+        flow: &mut Flow,
+        target: Target,
+        new: &mut dyn FnMut(&mut Network, &[Wire]) -> Vec<Wire>,
+    ) -> Result<(), NoGates> {
+        let hits = match target {
+            Target::Variable(variable) => vec![(variable, Wire::TRUE)],
+            Target::Element(element) => self.hits(line, flow, element)?,
+        };
+        for (variable, hit) in hits {
+            let range = self.range(variable);
+            let old = flow.memory[range.clone()].to_vec();
+            let new = new(&mut self.network, &old);
+            let bits = self.chosen(hit, &new, &old);
+            flow.memory[range].copy_from_slice(&bits);
+        }
+        Ok(())
+    }
+
+    /// The elements of an array, each with when it is meant. An index is always one of the array.
+    fn hits(&mut self, line: usize, flow: &Flow, element: Element) -> Result<Vec<(VarId, Wire)>, NoGates> {
+        let width = self.program.variable(element.first).ty.width as usize;
+        if element.length * width > ARRAY_BITS {
+            return Err(NoGates::TooMany(line));
+        }
+        let bits = (usize::BITS - (element.length.saturating_sub(1)).leading_zeros()) as usize;
+        let index = resized(&flow.memory[self.range(element.index)], bits);
+        let hit = |at: usize| {
+            let same = numbers::equal(&mut self.network, &index, &constant(at as u64, bits));
+            (element.at(at), same)
+        };
+        Ok((0..element.length).map(hit).collect())
+    }
+}

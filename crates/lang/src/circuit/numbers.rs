@@ -1,0 +1,118 @@
+//! Gates for numbers: rows of wires, the least bit first.
+
+use super::gates::{Network, Wire};
+use crate::flat::Function;
+use crate::semantics::{Kind, Type};
+
+/// The bits of a pattern.
+pub(super) fn constant(pattern: u64, width: usize) -> Vec<Wire> {
+    (0..width).map(|bit| Wire::constant(pattern.checked_shr(bit as u32).is_some_and(|rest| rest & 1 == 1))).collect()
+}
+
+/// The low bits, with 0 above them.
+pub(super) fn resized(bits: &[Wire], width: usize) -> Vec<Wire> {
+    (0..width).map(|bit| bits.get(bit).copied().unwrap_or(Wire::FALSE)).collect()
+}
+
+/// The complement of every bit, if asked for.
+pub(super) fn complement(bits: &[Wire], negated: bool) -> Vec<Wire> {
+    bits.iter().map(|&bit| if negated { !bit } else { bit }).collect()
+}
+
+/// A sum and a carry: the sum, what is carried into its last bit, and what out of it.
+pub(super) fn add(network: &mut Network, a: &[Wire], b: &[Wire], mut carry: Wire) -> (Vec<Wire>, Wire, Wire) {
+    let mut into = carry;
+    let mut sum = Vec::with_capacity(a.len());
+    for (&a, &b) in a.iter().zip(b) {
+        into = carry;
+        let half = network.xor(a, b);
+        sum.push(network.xor(half, carry));
+        carry = network.choose(half, carry, a);
+    }
+    (sum, into, carry)
+}
+
+/// The sum or difference of two numbers modulo 2^width, and whether it is none of the type.
+pub(super) fn sum(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire], minus: bool) -> (Vec<Wire>, Wire) {
+    let b = complement(b, minus);
+    let (sum, into, out) = add(network, a, &b, Wire::constant(minus));
+    let overflow = match ty.kind {
+        Kind::Bits => Wire::FALSE,
+        Kind::Unsigned => network.xor(out, Wire::constant(minus)),
+        Kind::Signed | Kind::Time => network.xor(into, out),
+    };
+    (sum, overflow)
+}
+
+/// Whether a number is at least another.
+fn at_least(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire]) -> Wire {
+    let (mut a, mut b) = (a.to_vec(), complement(b, true));
+    if let (true, Some(a), Some(b)) = (ty.is_signed(), a.last_mut(), b.last_mut()) {
+        (*a, *b) = (!*a, !*b);
+    }
+    add(network, &a, &b, Wire::TRUE).2
+}
+
+/// Whether two patterns are the same.
+pub(super) fn equal(network: &mut Network, a: &[Wire], b: &[Wire]) -> Wire {
+    let same: Vec<Wire> = a.iter().zip(b).map(|(&a, &b)| !network.xor(a, b)).collect();
+    network.all(same)
+}
+
+/// A comparison; nothing if the function is none.
+pub(super) fn compare(network: &mut Network, function: Function, ty: Type, a: &[Wire], b: &[Wire]) -> Option<Wire> {
+    Some(match function {
+        Function::Eq => equal(network, a, b),
+        Function::Ne => !equal(network, a, b),
+        Function::Ge => at_least(network, ty, a, b),
+        Function::Lt => !at_least(network, ty, a, b),
+        Function::Le => at_least(network, ty, b, a),
+        Function::Gt => !at_least(network, ty, b, a),
+        _ => return None,
+    })
+}
+
+/// Whether a number lies between two others.
+pub(super) fn is_between(network: &mut Network, ty: Type, a: &[Wire], lower: i128, upper: i128) -> Wire {
+    if lower > ty.greatest() || upper < ty.least() {
+        return Wire::FALSE;
+    }
+    let pattern = |number: i128| constant(ty.pattern(number), a.len());
+    let from = if lower <= ty.least() { Wire::TRUE } else { at_least(network, ty, a, &pattern(lower)) };
+    let to = if upper >= ty.greatest() { Wire::TRUE } else { at_least(network, ty, &pattern(upper), a) };
+    network.and(from, to)
+}
+
+/// A pattern shifted or rotated by a known distance; nothing if the function is none of these.
+pub(super) fn shift(function: Function, bits: &[Wire], distance: u64) -> Option<Vec<Wire>> {
+    let width = bits.len() as u64;
+    let from = |source: &dyn Fn(u64) -> Option<u64>| -> Vec<Wire> {
+        (0..width).map(|bit| source(bit).map_or(Wire::FALSE, |bit| bits[bit as usize])).collect()
+    };
+    Some(match function {
+        Function::Shl => from(&|bit| bit.checked_sub(distance)),
+        Function::Shr => from(&|bit| bit.checked_add(distance).filter(|&bit| bit < width)),
+        Function::Rol => from(&|bit| Some((bit + width - distance % width) % width)),
+        Function::Ror => from(&|bit| Some((bit + distance % width) % width)),
+        _ => return None,
+    })
+}
+
+/// A number in another type, and whether it is none of that type.
+pub(super) fn convert(network: &mut Network, from: Type, to: Type, bits: &[Wire]) -> (Vec<Wire>, Wire) {
+    if to.is_bool() {
+        return (vec![network.any(bits.iter().copied())], Wire::FALSE);
+    }
+    let sign = bits.last().copied().filter(|_| from.is_signed()).unwrap_or(Wire::FALSE);
+    let extended = |width: u32| (0..width as usize).map(|bit| bits.get(bit).copied().unwrap_or(sign));
+    let pattern: Vec<Wire> = extended(to.width).collect();
+    if !to.overflows_from(from) {
+        return (pattern, Wire::FALSE);
+    }
+    // All bits from the other type's sign on are the number's sign; a number without sign must have none.
+    let first = if to.is_signed() { to.width as usize - 1 } else { to.width as usize };
+    let expected = if to.is_signed() { sign } else { Wire::FALSE };
+    let above: Vec<Wire> =
+        extended(from.width.max(to.width) + 1).skip(first).map(|bit| network.xor(bit, expected)).collect();
+    (pattern, network.any(above))
+}

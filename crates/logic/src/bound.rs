@@ -1,0 +1,229 @@
+//! Formulas whose names mean something: variables, places, transitions.
+
+use std::sync::Arc;
+
+use super::formula::{Comparison, Quantifier};
+use super::ltl::Path;
+use super::past::Past;
+use petril_base::{PlaceId, TransitionId};
+use petril_base::{Type, VarId};
+
+/// A formula over the states of one view. `F` and `G` are written as untils: `F g` = `TRUE U g`, `G f` = `f W FALSE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// A constant.
+    Truth(bool),
+    /// The variable, a `BOOL`, is TRUE.
+    Variable(VarId),
+    /// A bit of the variable, counted from 0, is 1.
+    Bit(VarId, u32),
+    /// The place is marked.
+    Marked(PlaceId),
+    /// The transition is enabled.
+    Enabled(TransitionId),
+    /// No transition is enabled.
+    Deadlock,
+    /// Two numbers compare so.
+    Compare(Comparison, Term, Term),
+    /// Negation.
+    Not(Box<Bound>),
+    /// Conjunction.
+    And(Box<Bound>, Box<Bound>),
+    /// Disjunction.
+    Or(Box<Bound>, Box<Bound>),
+    /// Implication.
+    Implies(Box<Bound>, Box<Bound>),
+    /// Equivalence.
+    Iff(Box<Bound>, Box<Bound>),
+    /// In the next state, on all paths or on some.
+    Next(Quantifier, Box<Bound>),
+    /// The first holds until the second does, on all paths or on some.
+    Until {
+        /// On all paths or on some.
+        quantifier: Quantifier,
+        /// The second need not come if the first holds for ever.
+        weak: bool,
+        /// The first.
+        hold: Box<Bound>,
+        /// The second.
+        release: Box<Bound>,
+    },
+    /// A formula about every path. It is no part of another formula.
+    Ltl(Box<Path<Bound>>),
+}
+
+/// A number that depends on the state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Term {
+    /// A constant.
+    Number(i128),
+    /// The number a variable holds.
+    Variable(VarId, Type),
+    /// The same in the transition view, where each bit of the variable is a place.
+    Bits {
+        /// The variable.
+        variable: VarId,
+        /// The places that are marked while a bit is 1, each with what the bit counts.
+        places: Vec<(PlaceId, i128)>,
+    },
+    /// How many tokens the place holds.
+    Tokens(PlaceId),
+    /// What is known of earlier scans; a truth value counts as 0 or 1.
+    Past(Arc<Past>),
+    /// 1 if the formula, which is not temporal, holds; else 0.
+    Truth(Box<Bound>),
+    /// Sum.
+    Sum(Box<Term>, Box<Term>),
+    /// Difference.
+    Difference(Box<Term>, Box<Term>),
+    /// Product.
+    Product(Box<Term>, Box<Term>),
+}
+
+/// What a state says of the atoms.
+pub trait Valuation {
+    /// The value of a variable, as a pattern of its type.
+    fn value(&self, variable: VarId) -> u64;
+    /// What is known of earlier scans. Who knows nothing of them is never asked.
+    fn past(&self, past: &Past) -> i128 {
+        debug_assert!(false, "nothing is remembered here: {past:?}");
+        0
+    }
+    /// Whether a place is marked. No place is where states are ends of scans, unless they say so.
+    fn is_marked(&self, _: PlaceId) -> bool {
+        false
+    }
+    /// How many tokens a place holds.
+    fn tokens(&self, place: PlaceId) -> u64 {
+        u64::from(self.is_marked(place))
+    }
+    /// Whether a transition is enabled. None is where states are ends of scans.
+    fn is_enabled(&self, _: TransitionId) -> bool {
+        false
+    }
+    /// Whether no transition is enabled.
+    fn is_deadlock(&self) -> bool {
+        false
+    }
+}
+
+impl Bound {
+    /// Whether it speaks of one state only.
+    #[must_use]
+    pub fn is_state_formula(&self) -> bool {
+        match self {
+            Self::Truth(_)
+            | Self::Variable(_)
+            | Self::Bit(..)
+            | Self::Marked(_)
+            | Self::Enabled(_)
+            | Self::Deadlock
+            | Self::Compare(..) => true,
+            Self::Not(f) => f.is_state_formula(),
+            Self::And(f, g) | Self::Or(f, g) | Self::Implies(f, g) | Self::Iff(f, g) => {
+                f.is_state_formula() && g.is_state_formula()
+            }
+            Self::Next(..) | Self::Until { .. } | Self::Ltl(_) => false,
+        }
+    }
+
+    /// f, if this is EF f.
+    #[must_use]
+    pub fn possibility(&self) -> Option<&Self> {
+        match self {
+            Self::Until { quantifier: Quantifier::Some, weak: false, hold, release } => {
+                (**hold == Self::Truth(true)).then_some(release)
+            }
+            _ => None,
+        }
+    }
+
+    /// Shows every place whose tokens it speaks of, as often as it does.
+    pub fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
+        match self {
+            Self::Truth(_) | Self::Variable(_) | Self::Bit(..) | Self::Enabled(_) | Self::Deadlock => {}
+            Self::Marked(place) => visit(*place),
+            Self::Compare(_, left, right) => {
+                left.for_each_place(visit);
+                right.for_each_place(visit);
+            }
+            Self::Not(f) | Self::Next(_, f) => f.for_each_place(visit),
+            Self::And(f, g)
+            | Self::Or(f, g)
+            | Self::Implies(f, g)
+            | Self::Iff(f, g)
+            | Self::Until { hold: f, release: g, .. } => {
+                f.for_each_place(visit);
+                g.for_each_place(visit);
+            }
+            Self::Ltl(path) => path.atoms().into_iter().for_each(|atom| atom.for_each_place(visit)),
+        }
+    }
+
+    /// Whether it holds in a state. `None` if one state does not tell, since a part that matters is temporal.
+    pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
+        Some(match self {
+            Self::Truth(value) => *value,
+            Self::Variable(variable) => state.value(*variable) == 1,
+            Self::Bit(variable, bit) => state.value(*variable) >> bit & 1 == 1,
+            Self::Marked(place) => state.is_marked(*place),
+            Self::Enabled(transition) => state.is_enabled(*transition),
+            Self::Deadlock => state.is_deadlock(),
+            Self::Compare(comparison, left, right) => comparison.holds(left.value_in(state)?, right.value_in(state)?),
+            Self::Not(f) => !f.holds_in(state)?,
+            Self::And(f, g) => f.holds_in(state)? && g.holds_in(state)?,
+            Self::Or(f, g) => f.holds_in(state)? || g.holds_in(state)?,
+            Self::Implies(f, g) => !f.holds_in(state)? || g.holds_in(state)?,
+            Self::Iff(f, g) => f.holds_in(state)? == g.holds_in(state)?,
+            Self::Next(..) | Self::Until { .. } | Self::Ltl(_) => return None,
+        })
+    }
+}
+
+impl Term {
+    /// The number in a state. `None` if one state does not tell, since a part is temporal.
+    pub fn value_in(&self, state: &impl Valuation) -> Option<i128> {
+        Some(match self {
+            Self::Number(number) => *number,
+            Self::Variable(variable, ty) => ty.number(state.value(*variable)),
+            Self::Bits { places, .. } => {
+                places.iter().filter(|(place, _)| state.is_marked(*place)).map(|(_, weight)| weight).sum()
+            }
+            Self::Tokens(place) => i128::from(state.tokens(*place)),
+            Self::Past(past) => state.past(past),
+            Self::Truth(f) => i128::from(f.holds_in(state)?),
+            Self::Sum(a, b) => a.value_in(state)? + b.value_in(state)?,
+            Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
+            Self::Product(a, b) => a.value_in(state)? * b.value_in(state)?,
+        })
+    }
+
+    fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
+        match self {
+            Self::Number(_) | Self::Variable(..) | Self::Past(_) => {}
+            Self::Bits { places, .. } => places.iter().for_each(|&(place, _)| visit(place)),
+            Self::Tokens(place) => visit(*place),
+            Self::Truth(f) => f.for_each_place(visit),
+            Self::Sum(a, b) | Self::Difference(a, b) | Self::Product(a, b) => {
+                a.for_each_place(visit);
+                b.for_each_place(visit);
+            }
+        }
+    }
+
+    /// A bound of its absolute value; `None` if it is beyond what `i128` holds, with room for one more operation.
+    #[must_use]
+    pub fn magnitude(&self) -> Option<u128> {
+        let sum = match self {
+            Self::Number(number) => Some(number.unsigned_abs()),
+            Self::Variable(_, ty) => Some(ty.least().unsigned_abs().max(ty.greatest().unsigned_abs())),
+            Self::Bits { places, .. } => Some(places.iter().map(|(_, weight)| weight.unsigned_abs()).sum()),
+            Self::Tokens(_) => Some(u128::from(u64::MAX)),
+            Self::Truth(_) => Some(1),
+            Self::Past(past) => Some(past.magnitude()),
+            Self::Sum(a, b) | Self::Difference(a, b) => a.magnitude()?.checked_add(b.magnitude()?),
+            Self::Product(a, b) => a.magnitude()?.checked_mul(b.magnitude()?),
+        };
+        sum.filter(|&magnitude| magnitude < 1 << 126)
+    }
+}

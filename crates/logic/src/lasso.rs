@@ -1,0 +1,172 @@
+//! Paths without end, as a way to a cycle and the cycle.
+
+use fixedbitset::FixedBitSet;
+use rustc_hash::FxHashMap;
+
+use super::fairness::{Constraints, endings};
+use petril_search::{Graph, components};
+
+/// A path without end, or one that ends where no step is left.
+pub struct Lasso {
+    /// Its states without the first one.
+    pub states: Vec<u32>,
+    /// How many steps lead to the state that the last one steps back to.
+    pub loop_start: Option<usize>,
+}
+
+/// A path inside a set that goes round a cycle (and meets what is asked for), or to where paths end: a shortest way there, and
+/// a cycle from there, which is a shortest one if nothing is asked for.
+pub(super) fn lasso(
+    graph: &Graph,
+    within: &FixedBitSet,
+    constraints: Option<&Constraints>,
+    state: u32,
+) -> Option<Lasso> {
+    let endings = endings(graph, within, constraints);
+    let mut states = shortest(graph, state, within, false, |s| endings.contains(s as usize))?;
+    let round = round(graph, &endings, constraints, states.last().copied().unwrap_or(state))?;
+    let loop_start = round.loop_start.map(|start| states.len() + start);
+    states.extend_from_slice(&round.states);
+    Some(Lasso { states, loop_start })
+}
+
+/// A lasso from one of the [`endings`] that stays in its part of them.
+///
+/// It walks to a nearest state of a set that is still to be met, as long as there is one, and then back to a state of the walk
+/// behind which all were met.
+pub(super) fn round(
+    graph: &Graph,
+    endings: &FixedBitSet,
+    constraints: Option<&Constraints>,
+    knot: u32,
+) -> Option<Lasso> {
+    if graph.successors(knot).is_empty() {
+        return Some(Lasso { states: Vec::new(), loop_start: None });
+    }
+    let parts = components(graph, endings);
+    let mut inside = FixedBitSet::with_capacity(graph.len());
+    inside.extend(endings.ones().filter(|&state| parts.of[state] == parts.of[knot as usize]));
+    let mut wanted: Vec<&FixedBitSet> = constraints.map_or(Vec::new(), |constraints| constraints.weak.iter().collect());
+    let mut walk = vec![knot];
+    loop {
+        let last_visit = |set: &FixedBitSet| walk.iter().rposition(|&state| set.contains(state as usize));
+        let missing: Vec<&FixedBitSet> = wanted.iter().copied().filter(|set| last_visit(set).is_none()).collect();
+        let at = walk[walk.len() - 1];
+        if !missing.is_empty() {
+            let is_missing = |state: u32| missing.iter().any(|set| set.contains(state as usize));
+            walk.extend(shortest(graph, at, &inside, false, is_missing)?);
+            continue;
+        }
+        // Behind this position all have been met; going back to it repeats the least.
+        let latest = wanted.iter().filter_map(|set| last_visit(set)).min().unwrap_or(walk.len() - 1);
+        let back = match graph.successors(at).contains(&walk[latest]) {
+            true => vec![walk[latest]],
+            false => shortest(graph, at, &inside, true, |state| walk[..=latest].contains(&state))?,
+        };
+        let (target, way) = back.split_last()?;
+        let start = walk[..=latest].iter().rposition(|state| state == target)?;
+        walk.extend_from_slice(way);
+        let owed = constraints.into_iter().flat_map(|constraints| constraints.owed(&walk[start..]));
+        let before = wanted.len();
+        wanted.extend(owed);
+        if wanted.len() == before {
+            return Some(Lasso { states: walk[1..].to_vec(), loop_start: Some(start) });
+        }
+    }
+}
+
+/// States that [`near_lasso`] goes through.
+const NEAR: usize = 10_000;
+
+/// A lasso on all paths, in a set whose every state has a step to another one of the set, or none at all: one that comes
+/// back to a state on the shortest way to its own end, if there is one among the nearest states, else any.
+#[must_use]
+pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
+    let mut parents: FxHashMap<u32, (u32, usize)> = FxHashMap::from_iter([(state, (state, 0))]);
+    let mut queue = vec![state];
+    let mut next = 0;
+    let way = |parents: &FxHashMap<u32, (u32, usize)>, end: u32| {
+        let before = |&at: &u32| Some(parents[&at].0).filter(|&parent| parent != at);
+        let mut way: Vec<u32> = std::iter::successors(Some(end), before).collect();
+        way.reverse();
+        way
+    };
+    while let Some(&from) = queue.get(next) {
+        next += 1;
+        let depth = parents[&from].1;
+        if graph.row_of(from).is_some() && graph.successors(from).is_empty() {
+            return Some(Lasso { states: way(&parents, from)[1..].to_vec(), loop_start: None });
+        }
+        for &target in graph.successors(from).iter().filter(|&&target| within.contains(target as usize)) {
+            if let Some(&(_, above)) = parents.get(&target) {
+                let states = if above <= depth { way(&parents, from) } else { Vec::new() };
+                if states.get(above) == Some(&target) {
+                    return Some(Lasso { states: states[1..].to_vec(), loop_start: Some(above) });
+                }
+            } else if parents.len() < NEAR {
+                parents.insert(target, (from, depth + 1));
+                queue.push(target);
+            }
+        }
+    }
+    wandering(graph, within, state)
+}
+
+/// The path that always goes on to the state with the least number, which is seldom far from the initial one.
+fn wandering(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
+    let mut positions: FxHashMap<u32, usize> = FxHashMap::from_iter([(state, 0)]);
+    let mut states = vec![state];
+    loop {
+        let successors = graph.successors(states[states.len() - 1]);
+        if successors.is_empty() {
+            return Some(Lasso { states: states[1..].to_vec(), loop_start: None });
+        }
+        let next = successors.iter().copied().filter(|&next| within.contains(next as usize)).min()?;
+        if let Some(&start) = positions.get(&next) {
+            return Some(Lasso { states: states[1..].to_vec(), loop_start: Some(start) });
+        }
+        positions.insert(next, states.len());
+        states.push(next);
+    }
+}
+
+/// A shortest path inside a set to a state that satisfies `goal`, without its first state. With `leave`, the first state does
+/// not count as there already.
+#[must_use]
+pub fn shortest(
+    graph: &Graph,
+    from: u32,
+    within: &FixedBitSet,
+    leave: bool,
+    goal: impl Fn(u32) -> bool,
+) -> Option<Vec<u32>> {
+    if !leave && goal(from) {
+        return Some(Vec::new());
+    }
+    let mut parents: FxHashMap<u32, u32> = FxHashMap::default();
+    let mut gone = FixedBitSet::with_capacity(graph.rows());
+    let mut queue = vec![from];
+    let mut next = 0;
+    while let Some(&state) = queue.get(next) {
+        next += 1;
+        if graph.row_of(state).is_none_or(|row| gone.put(row as usize)) {
+            continue;
+        }
+        for &target in graph.successors(state) {
+            if !within.contains(target as usize) || parents.contains_key(&target) {
+                continue;
+            }
+            parents.insert(target, state);
+            if goal(target) {
+                let mut path = vec![target];
+                while parents[&path[path.len() - 1]] != from {
+                    path.push(parents[&path[path.len() - 1]]);
+                }
+                path.reverse();
+                return Some(path);
+            }
+            queue.push(target);
+        }
+    }
+    None
+}

@@ -1,0 +1,53 @@
+//! Requirements: formulas of CTL and LTL over program variables, or over places and transitions, and their truth on a graph.
+//!
+//! ```text
+//! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
+//!                                     └──ltl──▶ an automaton beside the graph ──search─────────────────▲
+//! ```
+//!
+//! Under fairness only some paths count: see [`Fairness`].
+
+mod along;
+mod bind;
+mod bound;
+mod dag;
+mod domain;
+mod evidence;
+mod fairness;
+mod formula;
+mod label;
+mod lasso;
+mod literal;
+mod ltl;
+mod mentions;
+mod parse;
+mod past;
+mod scope;
+mod simplify;
+mod sweep;
+mod text;
+mod timed;
+mod vacuity;
+mod view;
+
+pub use along::along;
+pub use bind::{Name, Nodes, ScanTime, Spot, Vocabulary, bind_in_net, bind_names};
+pub use bound::{Bound, Term, Valuation};
+pub use dag::{Dag, Node, NodeId};
+pub use domain::DomainText;
+pub use evidence::{Claim, Evidence, evidence};
+pub use fairness::{Constraint, Constraints, Fairness, FairnessAssumption, FairnessText, Recurrence};
+pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
+pub use label::{Labels, label, label_from, label_until, leading_to};
+pub use lasso::{Lasso, near_lasso, shortest};
+pub use literal::number;
+pub use ltl::{Counterexample, Path, Search, search};
+pub use mentions::Mentions;
+pub use parse::{
+    AssertionText, AssumptionText, Body, Origin, PlantText, Requirement, RequirementFile, Tag, parse_domain,
+    parse_fairness, parse_formula, parse_requirement, parse_requirements, two_comparisons,
+};
+pub use past::{History, Past, remembered};
+pub use text::Names;
+pub use vacuity::{Premise, Step, premises};
+pub use view::View;

@@ -1,0 +1,86 @@
+//! Numbers for keys, in a table beside that of the keys.
+
+use std::hint::black_box;
+
+use super::keys::{BATCH, Keys};
+use petril_search::is_available;
+
+/// Keys with a number each.
+pub(super) struct Index {
+    keys: Keys,
+    numbers: Vec<u32>,
+}
+
+/// Keys with their numbers, which can be gone through again.
+type Entries<'a> = &'a dyn Fn(&mut dyn FnMut(u64, u32));
+
+impl Index {
+    /// An index of about so many keys of some bits. Nothing if there is too little memory.
+    pub(super) fn of(bits: u32, room: usize, entries: Entries<'_>) -> Option<Self> {
+        // Entries of 8 bytes and numbers of 4, with room to spare.
+        if !is_available(room as u64 * 32) {
+            return None;
+        }
+        let mut complete = true;
+        let mut keys = Keys::in_lines(bits, room);
+        let mut batch = Vec::with_capacity(BATCH);
+        entries(&mut |key, _| {
+            batch.push(key);
+            if batch.len() == BATCH {
+                complete &= keys.insert(&batch, |_| {});
+                batch.clear();
+            }
+        });
+        complete &= keys.insert(&batch, |_| {});
+        let mut numbers = vec![0; keys.slots()];
+        entries(&mut |key, number| {
+            if let Some(slot) = keys.slot(key) {
+                numbers[slot] = number;
+            }
+        });
+        complete.then_some(Self { keys, numbers })
+    }
+
+    /// Reports the positions of keys that have a number, with it.
+    pub(super) fn find(&self, keys: &[u64], mut found: impl FnMut(usize, u32)) {
+        for (batch, start) in keys.chunks(BATCH).zip((0..).step_by(BATCH)) {
+            black_box(batch.iter().fold(0, |seen, &key| seen ^ self.keys.touch(key)));
+            let mut slots = [None; BATCH];
+            batch.iter().zip(&mut slots).for_each(|(&key, slot)| *slot = self.keys.slot(key));
+            for (position, slot) in slots.iter().take(batch.len()).enumerate() {
+                if let Some(slot) = *slot {
+                    found(start + position, self.numbers[slot]);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Few keys of many bits that differ in one bit only: each has its own number, whatever bit that is.
+    #[test]
+    fn wide_keys_in_small_indices_are_told_apart() {
+        for bits in 2..=64_u32 {
+            let single = |bit: u32| 1_u64 << bit;
+            let all: Vec<u64> = (0..bits).map(single).chain([0]).collect();
+            for keys in [all.as_slice(), &[0, 1, single(bits - 1)], &[single(bits - 1), single(bits - 2)]] {
+                let entries = |enter: &mut dyn FnMut(u64, u32)| {
+                    keys.iter().zip(0..).for_each(|(&key, number)| enter(key, number));
+                };
+                let index = Index::of(bits, keys.len(), &entries).unwrap();
+                let mut found = vec![None; keys.len()];
+                index.find(keys, |position, number| found[position] = Some(number));
+                let mut expected = vec![None; keys.len()];
+                // A key that is there twice has the number that came last.
+                entries(&mut |key, number| {
+                    let same = keys.iter().enumerate().filter(|(_, other)| **other == key);
+                    same.for_each(|(position, _)| expected[position] = Some(number));
+                });
+                assert_eq!(found, expected, "{bits} bits: {keys:x?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! Place/transition nets: the net and its token game, what can be said of it without exploring it, an engine that explores
+//! it, questions about it, and the formats of other tools.
+
+pub mod engine;
+pub mod format;
+mod goal;
+mod markings;
+mod names;
+pub mod net;
+pub mod question;
+pub mod structure;
+mod walk;
+
+pub use goal::{Goal, Tokens};
+pub use markings::{MarkingValuation, Markings, SECOND_TOKEN};
+pub use walk::{Walk, without_loops};

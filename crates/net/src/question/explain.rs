@@ -1,0 +1,182 @@
+//! Why a formula about paths holds at the beginning: a run, and runs that branch off it.
+//!
+//! What holds on some path is shown by that path. What holds on all paths is only stated, where it does.
+
+use fixedbitset::FixedBitSet;
+
+use super::paths::Paths;
+use super::replay::Played;
+use super::{Branch, Run};
+use crate::net::{Tokens, TransitionId};
+use petril_logic::{Dag, Labels, Node, NodeId, Quantifier, near_lasso, shortest};
+
+/// A run from the initial marking that shows a node, replayed by the plain firing rule with everything it claims of single
+/// markings; or what the replay has against it.
+pub(super) fn explain(paths: &Paths<'_>, dag: &Dag, labels: &Labels, node: NodeId) -> Result<Option<Run>, String> {
+    let teller = Teller { paths, dag, labels };
+    let tale = teller.tale(node, 0);
+    teller.replayed(&tale, &paths.net.initial_tokens()).map(Some)
+}
+
+/// A path through the graph.
+#[derive(Default)]
+struct Tale {
+    states: Vec<u32>,
+    /// For a path without end, the position to which the last state steps back.
+    loop_start: Option<usize>,
+    /// Formulas about one state, and the positions at which they hold.
+    claims: Vec<(usize, NodeId)>,
+    /// Other formulas, the positions at which they hold, and why if a path shows that.
+    branches: Vec<(usize, NodeId, Option<Tale>)>,
+    /// Whether no step is left at the end.
+    is_dead: bool,
+}
+
+struct Teller<'a> {
+    paths: &'a Paths<'a>,
+    dag: &'a Dag,
+    labels: &'a Labels,
+}
+
+impl Teller<'_> {
+    fn tale(&self, id: NodeId, state: u32) -> Tale {
+        let mut tale = Tale { states: vec![state], ..Tale::default() };
+        self.tell(id, &mut tale);
+        tale
+    }
+
+    fn is_local(&self, id: NodeId) -> bool {
+        match *self.dag.node(id) {
+            Node::State { .. } => true,
+            Node::And(f, g) | Node::Or(f, g) => self.is_local(f) && self.is_local(g),
+            _ => false,
+        }
+    }
+
+    fn holds(&self, id: NodeId, state: u32) -> bool {
+        self.labels.of(id).contains(state as usize)
+    }
+
+    /// Goes on to show a node, which holds at the last state.
+    fn tell(&self, id: NodeId, tale: &mut Tale) {
+        let state = tale.states[tale.states.len() - 1];
+        match *self.dag.node(id) {
+            Node::State { .. } => tale.claims.push((tale.states.len() - 1, id)),
+            Node::And(f, g) => {
+                // One path goes on to show what it can; the other part branches off here.
+                let (first, then) = if self.dag.is_existential(g) { (f, g) } else { (g, f) };
+                if self.is_local(first) {
+                    self.tell(first, tale);
+                } else {
+                    self.branch(first, tale);
+                }
+                self.tell(then, tale);
+            }
+            Node::Or(f, g) => {
+                let is_better = |f, g| self.is_local(f) || self.dag.is_existential(f) && !self.is_local(g);
+                let takes_f = self.holds(f, state) && (!self.holds(g, state) || is_better(f, g));
+                self.tell(if takes_f { f } else { g }, tale);
+            }
+            Node::Next(Quantifier::Some, f) => {
+                let next = self.paths.graph.successors(state).iter().find(|&&next| self.holds(f, next));
+                tale.states.extend(next);
+                self.tell(f, tale);
+            }
+            Node::Until(Quantifier::Some, f, g) | Node::WeakUntil(Quantifier::Some, f, g) => {
+                let goal = |state| self.holds(g, state);
+                if let Some(way) = shortest(&self.paths.graph, state, self.labels.of(id), false, goal) {
+                    self.walk(f, &way, tale);
+                    self.tell(g, tale);
+                } else {
+                    self.go_round(f, self.labels.of(id), tale);
+                }
+            }
+            _ => self.branch(id, tale),
+        }
+    }
+
+    fn branch(&self, id: NodeId, tale: &mut Tale) {
+        let state = tale.states[tale.states.len() - 1];
+        let why = self.dag.is_existential(id).then(|| self.tale(id, state));
+        tale.branches.push((tale.states.len() - 1, id, why));
+    }
+
+    /// Goes on through states, in all of which but the last the node holds.
+    fn walk(&self, id: NodeId, way: &[u32], tale: &mut Tale) {
+        for &state in way {
+            if self.is_local(id) {
+                tale.claims.push((tale.states.len() - 1, id));
+            }
+            tale.states.push(state);
+        }
+    }
+
+    /// Goes on for ever, or to where no step is left, through states with the node that are within a set.
+    fn go_round(&self, id: NodeId, within: &FixedBitSet, tale: &mut Tale) {
+        let knot = tale.states.len() - 1;
+        let (graph, state) = (&self.paths.graph, tale.states[knot]);
+        let Some(lasso) = near_lasso(graph, within, state) else {
+            // Nothing shows it, and the replay is to say so.
+            tale.is_dead = true;
+            return;
+        };
+        if !self.is_local(id) {
+            self.branch(id, tale);
+        }
+        self.walk(id, &lasso.states, tale);
+        if self.is_local(id) {
+            tale.claims.push((tale.states.len() - 1, id));
+        }
+        tale.loop_start = lasso.loop_start.map(|start| knot + start);
+        tale.is_dead = lasso.loop_start.is_none();
+    }
+
+    /// The run of a path, played from a marking by the plain firing rule.
+    fn replayed(&self, tale: &Tale, from: &Tokens) -> Result<Run, String> {
+        let net = self.paths.net;
+        let targets = tale.states.iter().skip(1).copied().chain(tale.loop_start.map(|start| tale.states[start]));
+        let (mut firings, mut markings) = (Vec::new(), vec![from.clone()]);
+        for target in targets {
+            let marking = self.paths.exploration.marking(target).ok_or("a state is not there")?;
+            let (transition, after) =
+                self.step(&markings[markings.len() - 1], &marking).ok_or("a step is not there")?;
+            firings.push(transition);
+            markings.push(after);
+        }
+        for &(position, claim) in &tale.claims {
+            if !self.is_true(claim, &markings[position]) {
+                return Err(format!("marking {position} does not show it"));
+            }
+        }
+        let last = &markings[markings.len() - 1];
+        if tale.is_dead && net.transition_ids().any(|transition| net.has_concession(last, transition)) {
+            return Err("the last marking is not dead".to_owned());
+        }
+        let mut branches = Vec::with_capacity(tale.branches.len());
+        for (at, node, why) in &tale.branches {
+            let run = why.as_ref().map(|why| self.replayed(why, &markings[*at])).transpose()?;
+            branches.push(Branch { at: *at, formula: self.dag.formula(*node).simplified(), run });
+        }
+        Ok(Run { firings, loop_start: tale.loop_start, branches, is_shortest: false })
+    }
+
+    /// The transition that leads from a marking to another, and that marking.
+    fn step(&self, from: &Tokens, to: &[u64]) -> Option<(TransitionId, Tokens)> {
+        let net = self.paths.net;
+        net.transition_ids().filter(|&transition| net.has_concession(from, transition)).find_map(|transition| {
+            let mut tokens = from.clone();
+            net.play(&mut tokens, transition).ok()?;
+            net.place_ids().zip(to).all(|(place, &n)| tokens.on(place) == n).then_some((transition, tokens))
+        })
+    }
+
+    /// Whether a marking shows a formula about one state.
+    fn is_true(&self, id: NodeId, tokens: &Tokens) -> bool {
+        match self.dag.node(id) {
+            Node::State { formula, negated } => formula.holds_in(&Played(self.paths.net, tokens)) == Some(!*negated),
+            Node::And(f, g) => self.is_true(*f, tokens) && self.is_true(*g, tokens),
+            Node::Or(f, g) => self.is_true(*f, tokens) || self.is_true(*g, tokens),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Every state once: an arena of words, and a table of numbers.
+
+use std::hint::black_box;
+
+use crate::table::Table;
+
+/// States in the order they were first seen. A state costs its words and about seven bytes of table.
+pub struct Store {
+    words: usize,
+    len: usize,
+    arena: Vec<u64>,
+    table: Table,
+}
+
+/// States entered together. What they need fits into the nearest memory.
+const BATCH: usize = 64;
+
+impl Store {
+    /// An empty store of states of this many words.
+    pub fn new(words: usize) -> Self {
+        Self { words, len: 0, arena: Vec::new(), table: Table::default() }
+    }
+
+    /// The words of all states, one state after another.
+    pub fn into_arena(self) -> Vec<u64> {
+        self.arena
+    }
+
+    /// How many states there are.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// A state by its number.
+    pub fn get(&self, id: u32) -> &[u64] {
+        let start = id as usize * self.words;
+        &self.arena[start..start + self.words]
+    }
+
+    /// Enters states, given one after another, and adds their numbers, new or not.
+    pub fn enter(&mut self, states: &[u64], numbers: &mut Vec<u32>) {
+        for states in states.chunks(BATCH * self.words) {
+            let (words, arena) = (self.words, &self.arena);
+            let at = |id: u32| &arena[id as usize * words..(id as usize + 1) * words];
+            self.table.reserve(BATCH, |id| hash(at(id).iter().copied()));
+            let mut hashes = [0; BATCH];
+            let mut touched = 0;
+            // No load waits for another in these loops, so many are under way at a time.
+            for (hashed, state) in hashes.iter_mut().zip(states.chunks_exact(words)) {
+                *hashed = hash(state.iter().copied());
+                touched ^= self.table.touch(*hashed);
+            }
+            for (&hashed, _) in hashes.iter().zip(states.chunks_exact(words)) {
+                touched ^= self.table.candidate(hashed).map_or(0, |id| at(id)[0] as u32);
+            }
+            black_box(touched);
+            for (&hashed, state) in hashes.iter().zip(states.chunks_exact(words)) {
+                let arena = &self.arena;
+                let is = |id: u32| arena[id as usize * words..(id as usize + 1) * words] == *state;
+                let next = self.len as u32;
+                let id = self.table.enter(hashed, next, is);
+                if id == next {
+                    self.len += 1;
+                    self.arena.extend_from_slice(state);
+                }
+                numbers.push(id);
+            }
+        }
+    }
+
+    /// Bytes in use.
+    pub fn bytes(&self) -> u64 {
+        self.arena.capacity() as u64 * 8 + self.table.bytes()
+    }
+}
+
+/// A hash of some words, by products of twice their width, folded.
+#[inline(always)]
+pub fn hash(words: impl Iterator<Item = u64>) -> u64 {
+    words.fold(0x9E37_79B9_7F4A_7C15, |hash: u64, word| {
+        let product = u128::from(hash ^ word) * 0xA076_1D64_78BD_642F;
+        product as u64 ^ (product >> 64) as u64
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn enter(store: &mut Store, states: &[u64]) -> Vec<u32> {
+        let mut numbers = Vec::new();
+        store.enter(states, &mut numbers);
+        numbers
+    }
+
+    #[test]
+    fn every_state_has_one_number() {
+        let mut store = Store::new(3);
+        let state = |i: u64| [i % 7, i.wrapping_mul(0x9E37_79B9_7F4A_7C15), i / 7];
+        let states: Vec<u64> = (0..5000).flat_map(state).collect();
+        assert_eq!(enter(&mut store, &states), (0..5000).collect::<Vec<u32>>());
+        for i in (0..5000).rev() {
+            assert_eq!(enter(&mut store, &state(i)), [i as u32], "the number does not change");
+            assert_eq!(store.get(i as u32), state(i));
+        }
+        assert_eq!(store.len(), 5000);
+        assert!(store.bytes() >= 5000 * 3 * 8);
+        let twice = [state(6000), state(3), state(6000)].concat();
+        assert_eq!(enter(&mut store, &twice), [5000, 3, 5000]);
+    }
+
+    #[test]
+    fn states_that_differ_in_any_bit_are_different() {
+        let mut store = Store::new(2);
+        assert_eq!(enter(&mut store, &[0, 0]), [0]);
+        for bit in 0..128_usize {
+            let mut state = [0_u64; 2];
+            state[bit / 64] |= 1 << (bit % 64);
+            assert_eq!(enter(&mut store, &state), [bit as u32 + 1]);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Work that somebody watches, and can stop.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use crate::budget::Progress;
+
+/// Between two looks.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Does some work on another thread, which is told by the flag when `watch` gives a reason to stop. What came of the work; and the
+/// reason, if there was one.
+///
+/// All long work on nets is asked to stop in this way: it looks at the flag now and then.
+pub fn watched<T: Send>(
+    watch: &mut dyn FnMut(&Progress) -> Option<String>,
+    progress: &Progress,
+    work: impl FnOnce(&AtomicBool) -> T + Send,
+) -> (Option<T>, Option<String>) {
+    let stopping = AtomicBool::new(false);
+    let (sender, receiver) = channel();
+    thread::scope(|scope| {
+        scope.spawn(|| sender.send(work(&stopping)));
+        let mut reason = None;
+        loop {
+            match receiver.recv_timeout(PAUSE) {
+                Ok(result) => return (Some(result), reason),
+                Err(RecvTimeoutError::Disconnected) => return (None, reason),
+                Err(RecvTimeoutError::Timeout) => {
+                    reason = reason.or_else(|| watch(progress));
+                    stopping.store(reason.is_some(), Ordering::Relaxed);
+                }
+            }
+        }
+    })
+}

@@ -1,0 +1,3 @@
+//! Specifications of programs: safety functions, their sanity, tests made of them, and proofs.
+
+pub mod sif;
