@@ -2,16 +2,14 @@
 //! reorder.
 //!
 //! Names, sentences and file names come from files that anybody may have written. All text for people goes through
-//! [`line()`] or
-//! [`lines()`]; each format adds its own escapes. Text for programs keeps every character, escaped as its format says
-//! ([`json()`]).
+//! [`line()`] or [`lines()`]; each format adds its own escapes. Text for programs keeps every character, escaped as its
+//! format says ([`json()`]).
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// Whether a character shows as itself, where it stands: not a control character, a change of the direction of text
-/// (Boucher and
-/// Anderson, *Trojan Source*, 2021), an invisible character, a line end, for private use or unassigned.
+/// (Boucher and Anderson, *Trojan Source*, 2021), an invisible character, a line end, for private use or unassigned.
 #[must_use]
 pub fn is_printable(c: char) -> bool {
     !c.is_control()
@@ -71,8 +69,7 @@ fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
 }
 
 /// JSON document in which characters that are not printable are escaped in ASCII (RFC 8259, section 7): parsing it
-/// gives the same
-/// strings. Line feeds stand between values only, and stay.
+/// gives the same strings. Line feeds stand between values only, and stay.
 #[must_use]
 pub fn json(document: &str) -> Cow<'_, str> {
     if document.chars().all(|c| is_printable(c) || c == '\n') {

@@ -9,8 +9,7 @@ use crate::source::Span;
 /// Converts a grammar's error on a piece of text to a diagnostic.
 ///
 /// `start` is the piece's offset in the whole text, `end` the name of its end in messages, and `name` that of a rule;
-/// rules without
-/// a name are not listed.
+/// rules without a name are not listed.
 pub fn expected<R: RuleType>(
     error: &Error<R>,
     (text, start): (&str, usize),
@@ -48,8 +47,7 @@ pub fn expected<R: RuleType>(
 }
 
 /// Reports a letter with an accent as what is wrong, not the end of a name before it; for languages whose names are
-/// made of plain
-/// letters.
+/// made of plain letters.
 pub fn plain_letters(diagnostic: Diagnostic, (text, start): (&str, usize)) -> Diagnostic {
     let at = diagnostic.span().start - start;
     match text[at..].chars().next() {

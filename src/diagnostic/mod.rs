@@ -74,8 +74,7 @@ impl Diagnostic {
     }
 
     /// Adds a suggestion as [`suggest`](Self::suggest) does, but only to the first 100 problems of a list (`position`
-    /// counts from 0):
-    /// nobody reads the hundred-and-first, and to suggest a name for each of thousands takes minutes.
+    /// counts from 0): nobody reads the hundred-and-first, and to suggest a name for each of thousands takes minutes.
     #[must_use]
     pub fn suggest_at<'a>(self, position: usize, written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Self {
         if position < 100 { self.suggest(written, candidates) } else { self }

@@ -67,8 +67,7 @@ fn shortened(message: &str) -> String {
 }
 
 /// Text with a sign of the same length in bytes in place of each character that is not printable, so that offsets stay
-/// right. The
-/// renderer has signs of its own for the control characters of one byte.
+/// right. The renderer has signs of its own for the control characters of one byte.
 fn visible(text: &str) -> String {
     let sign = |c: char| match c.len_utf8() {
         _ if printable::is_printable(c) => c,

@@ -11,16 +11,15 @@ impl FlatProgram {
     /// Variables, as positions, whose values at the beginning of a scan can make a difference in it or after it.
     ///
     /// The others are written before they are read on every path from the first line to the end, like an output that is
-    /// computed
-    /// anew in every scan, or are inputs or buffers. Two states that differ only in these have the same future.
+    /// computed anew in every scan, or are inputs or buffers. Two states that differ only in these have the same
+    /// future.
     #[must_use]
     pub fn carried(&self) -> FixedBitSet {
         let variables = self.variables.len();
         let mut carried = FixedBitSet::with_capacity(variables);
         let meetings = self.meetings();
         // For lines yet to be visited, in their order: the variables written on every known path to the line. The set
-        // goes from line
-        // to line, and is copied only where control branches.
+        // goes from line to line, and is copied only where control branches.
         let mut waiting = BTreeMap::from([(0, FixedBitSet::with_capacity(variables))]);
         let mut known: BTreeMap<usize, FixedBitSet> = BTreeMap::new();
         // Unreachable lines make no difference.
@@ -55,8 +54,7 @@ impl FlatProgram {
     }
 
     /// Targets of jumps that may be visited again, because a jump back leads over them: their sets have to be kept. All
-    /// other lines
-    /// are visited once if lines are taken in their order.
+    /// other lines are visited once if lines are taken in their order.
     fn meetings(&self) -> FixedBitSet {
         let jumps = self.code.iter().enumerate().filter_map(|(line, code)| match code.instruction {
             Instruction::Jump { target, .. } => Some((line, target)),

@@ -10,9 +10,8 @@ pub type Cuts = BTreeSet<i128>;
 
 impl FlatProgram {
     /// Cut points of an input that the program only compares with constants: it loads the input and compares it in the
-    /// next line,
-    /// or compares a constant with it. `None` if it does anything else with the input, like storing it or computing
-    /// with it.
+    /// next line, or compares a constant with it. `None` if it does anything else with the input, like storing it or
+    /// computing with it.
     #[must_use]
     pub fn compared(&self, input: VarId) -> Option<Cuts> {
         let ty = self.variable(input).ty;

@@ -48,8 +48,7 @@ pub enum Instruction {
         operand: Operand,
     },
     /// CR := the same number in another type, modulo 2^width; to `BOOL`: whether it is not 0. A number outside the new
-    /// type is an
-    /// overflow, if the type is one of numbers.
+    /// type is an overflow, if the type is one of numbers.
     Convert {
         /// Type before.
         from: Type,
@@ -96,8 +95,7 @@ pub enum Target {
 }
 
 /// Element of an array: one of the `length` variables `first`, `first + stride`, …, which are all of one type. The
-/// value of
-/// `index`, a buffer, selects it and is always less than `length`.
+/// value of `index`, a buffer, selects it and is always less than `length`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Element {
     /// Variable at index 0.

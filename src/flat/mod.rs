@@ -1,8 +1,7 @@
 //! Flat code: the seed paper's *Env* and *Code* (Heiner and Menzel, section 2.2).
 //!
 //! Strictly sequential list of typed instructions: parentheses are buffered in fresh variables, labels are line
-//! numbers, a
-//! return is a jump to the end. Interpreter and net are both made from it.
+//! numbers, a return is a jump to the end. Interpreter and net are both made from it.
 
 mod carried;
 mod compared;
@@ -55,8 +54,7 @@ pub struct FlatProgram {
 }
 
 /// Variable of an elementary type. Arrays, structures and instances are split into many of them, each with a name of
-/// its own
-/// like `pump.T.Q` or `level[3]`.
+/// its own like `pump.T.Q` or `level[3]`.
 #[derive(Clone, Debug)]
 pub struct Variable {
     /// Name as it was declared.
@@ -112,8 +110,7 @@ impl FlatProgram {
     }
 
     /// Variable with a name in a formula: as it is declared, or with the program before it, `starter.Motor`, or with
-    /// PLCverif's word
-    /// for the block under check, `instance.Motor`. Declared names take precedence.
+    /// PLCverif's word for the block under check, `instance.Motor`. Declared names take precedence.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<VarId> {
         self.find(name).or_else(|| {

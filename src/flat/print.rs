@@ -57,8 +57,7 @@ impl FlatProgram {
     }
 
     /// Listing of the whole code: line number, instruction, and the source line it comes from, each source line once;
-    /// then the
-    /// buffers. Printed by `petril flat`.
+    /// then the buffers. Printed by `petril flat`.
     #[must_use]
     pub fn listing(&self, source: &Source) -> String {
         let texts: Vec<String> = self.code.iter().map(|line| self.text(line.instruction)).collect();

@@ -5,8 +5,7 @@ use std::collections::BTreeSet;
 use super::{FlatProgram, Hazard};
 
 /// Hazards that count as part of a program's meaning, because the PLC is known to handle them so. All others are
-/// errors: after
-/// them, nothing is known.
+/// errors: after them, nothing is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tolerated {
     /// Whether numbers that do not fit their type go on modulo 2^width.

@@ -3,8 +3,7 @@
 use crate::semantics::{Kind, Type};
 
 /// Text of a value in a table: `0` and `1` for truth values, `16#8001` for bit strings, `T#1s500ms` for times, decimal
-/// numbers for
-/// everything else.
+/// numbers for everything else.
 #[must_use]
 pub fn value_text(ty: Type, pattern: u64) -> String {
     let number = ty.number(pattern);

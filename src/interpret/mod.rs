@@ -1,6 +1,5 @@
 //! The operational semantics (seed paper, section 2.3): states (i, m, a) of line, memory and current result, and one
-//! transition
-//! for each instruction. The reference for everything else.
+//! transition for each instruction. The reference for everything else.
 
 mod arithmetic;
 
@@ -182,8 +181,7 @@ impl<'p> Machine<'p> {
     /// Continues a scan that has taken more instructions than the program has.
     ///
     /// States are compared with an earlier one that is renewed at doubling distances (Brent's cycle detection), so a
-    /// loop that repeats
-    /// a state is found whatever its length.
+    /// loop that repeats a state is found whatever its length.
     fn scan_with_loops(&mut self) -> Result<(), Fault> {
         let mut earlier = self.clone();
         let mut steps = self.program.end() + 1;

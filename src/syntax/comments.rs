@@ -1,8 +1,7 @@
 //! Comments (B.1.5): replaced by blanks, so that the grammar need not know them.
 //!
 //! `(* … *)` nests, as in every tool of the field; `//` runs to the line end. A comment that spans lines does not end
-//! an
-//! instruction, so the line ends inside it become blanks too. Byte offsets do not change.
+//! an instruction, so the line ends inside it become blanks too. Byte offsets do not change.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -54,8 +53,7 @@ fn scan(text: &str) -> impl Iterator<Item = Comment> {
 }
 
 /// Replaces every comment by as many blanks and reports a comment that is never closed. `start` is the text's offset in
-/// its
-/// file.
+/// its file.
 pub fn blank(text: &str, start: usize) -> (String, Option<Diagnostic>) {
     let mut blanked = text.as_bytes().to_vec();
     let mut unclosed = None;
@@ -98,8 +96,7 @@ pub fn comments(text: &str) -> Comments {
 }
 
 /// Requirements in comments that begin with `(*@` or `//@`, each in its place: a text of the same length, the rest of
-/// which is
-/// blank. `None` if there is no such comment, or the text is XML.
+/// which is blank. `None` if there is no such comment, or the text is XML.
 #[must_use]
 pub fn requirements_in_comments(text: &str) -> Option<String> {
     if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {

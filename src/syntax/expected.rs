@@ -8,8 +8,7 @@ use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::Span;
 
 /// Parses a piece of text again by the rule that should have read it, and says why that fails. `start` is the piece's
-/// offset
-/// in the whole text.
+/// offset in the whole text.
 pub fn explain(rule: Rule, text: &str, start: usize) -> Diagnostic {
     match IlParser::parse(rule, text) {
         Err(error) => diagnostic(&error, text, start),

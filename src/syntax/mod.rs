@@ -1,6 +1,5 @@
 //! Parsing of text to a syntax tree and printing of the tree, and reading of PLCopen projects in XML to the same tree.
-//! The
-//! grammar is `grammar/il.pest`; only this module knows that pest reads it.
+//! The grammar is `grammar/il.pest`; only this module knows that pest reads it.
 
 pub mod ast;
 mod comments;

@@ -1,6 +1,5 @@
 //! Nesting depth of declarations, and of lists in the calls of lists: counted before parsing, since the parser follows
-//! every
-//! level with a call of its own.
+//! every level with a call of its own.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -69,8 +68,7 @@ impl Nesting {
 }
 
 /// Reports the first place of a text where declarations or lists are nested too deeply. The text has no comments and
-/// begins
-/// at offset `start`.
+/// begins at offset `start`.
 pub fn too_deep(text: &str, start: usize) -> Option<Diagnostic> {
     let bytes = text.as_bytes();
     let is_word = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';

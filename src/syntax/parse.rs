@@ -13,8 +13,7 @@ use crate::source::{Source, Span};
 pub(super) struct IlParser;
 
 /// Parses a text, or a PLCopen project in XML. Whatever cannot be read is reported and left out of the tree, so that
-/// the static
-/// rules can check the rest.
+/// the static rules can check the rest.
 #[must_use]
 pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     if plcopen::is_xml(source) {

@@ -1,6 +1,5 @@
 //! Canonical text of a syntax tree: one instruction a line, operators in upper case, parentheses closed on a line of
-//! their
-//! own. Parsing it gives the same tree.
+//! their own. Parsing it gives the same tree.
 
 use std::fmt::{self, Display, Formatter};
 

@@ -1,6 +1,5 @@
 //! XML documents with positions: as a tree, for small documents that are looked at from all sides, or as a stream, for
-//! documents
-//! that may have hundreds of megabytes.
+//! documents that may have hundreds of megabytes.
 
 mod attributes;
 mod stream;

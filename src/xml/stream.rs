@@ -1,8 +1,7 @@
 //! XML as a stream: one event after another, in no more memory than the text takes.
 //!
 //! quick-xml cuts the text into tags and the text between them. Whatever else makes a document well-formed is checked
-//! here: names,
-//! attributes, prefixes, references, and that there is one root element with everything in it.
+//! here: names, attributes, prefixes, references, and that there is one root element with everything in it.
 
 use std::borrow::Cow;
 
@@ -195,8 +194,7 @@ impl<'s> Stream<'s> {
     }
 
     /// Reads the text content of the innermost open element to its end: without comments and child elements, without
-    /// outer blanks. The
-    /// span of an empty content is that of the tag.
+    /// outer blanks. The span of an empty content is that of the tag.
     pub fn content(&mut self, element: &Element<'s>) -> Result<Piece<'s>, Diagnostic> {
         let mut content: Option<Piece<'s>> = None;
         loop {

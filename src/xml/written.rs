@@ -7,8 +7,7 @@ use super::attributes::is_character;
 use crate::printable::{is_printable, line};
 
 /// Escapes text for the content of an element or the value of an attribute: markup and characters that are not
-/// printable become
-/// references. Characters that XML cannot hold are written as in printed text, like `\u{1b}`.
+/// printable become references. Characters that XML cannot hold are written as in printed text, like `\u{1b}`.
 pub(crate) fn written(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -166,8 +166,7 @@ impl<'p> Lowering<'p> {
     }
 
     /// Buffers of a unit: all variables of a function, the temporary ones of a function block. Recursion is excluded,
-    /// so all calls
-    /// share them.
+    /// so all calls share them.
     fn own_variables(&mut self, id: PouId) -> Vec<Option<Address>> {
         if let Some(known) = self.buffers.units.get(&id) {
             return known.clone();
@@ -214,8 +213,7 @@ impl<'p> Lowering<'p> {
 }
 
 /// Number of arguments up to the last list. These are computed before any of them is used, from left to right: a list
-/// may call
-/// a unit that writes the variables named before it.
+/// may call a unit that writes the variables named before it.
 pub fn early<'f>(arguments: impl Iterator<Item = &'f Feed>) -> usize {
     let last = arguments.enumerate().filter(|(_, feed)| matches!(feed.source, FeedSource::List(_))).last();
     last.map_or(0, |(position, _)| position + 1)

@@ -30,8 +30,7 @@ pub fn flatten(program: &Program) -> FlatProgram {
 /// Flattens a program with a scan time in milliseconds, if one is given.
 ///
 /// A call becomes the instructions of the called unit, on variables of its own: `t.Q` is the output of the instance
-/// `t`. A
-/// return becomes a jump after them. `AND( x … )` becomes `ST A`, `LD x`, …, `ST B`, `LD A`, `AND B`.
+/// `t`. A return becomes a jump after them. `AND( x … )` becomes `ST A`, `LD x`, …, `ST B`, `LD A`, `AND B`.
 #[must_use]
 pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     let mut lowering = Lowering::new(program, scan_time.or(program.interval).unwrap_or(DEFAULT_SCAN_TIME));

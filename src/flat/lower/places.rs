@@ -42,8 +42,7 @@ struct Chosen {
 
 impl<'p> Lowering<'p> {
     /// Computes the address of a place. If an index has to be computed, the current result is kept, if `result` is its
-    /// type; the
-    /// buffer of the index is to be released with [`Lowering::release_address`].
+    /// type; the buffer of the index is to be released with [`Lowering::release_address`].
     pub fn address(&mut self, frame: &Frame<'p>, place: &Place, result: Option<Type>, span: Span) -> Address {
         let (mut address, mut shape) = match place.root {
             Root::Own(position) => {

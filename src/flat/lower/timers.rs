@@ -8,9 +8,8 @@ use crate::source::Span;
 
 impl Lowering<'_> {
     /// Emits the lines that advance each running clock by the scan time at the beginning of every scan, until it has
-    /// reached the
-    /// greatest preset time it can be given; where that is not known, its present one. Returns whether there are
-    /// timers.
+    /// reached the greatest preset time it can be given; where that is not known, its present one. Returns whether
+    /// there are timers.
     pub fn ticks(&mut self) -> bool {
         let entry = self.pou(self.program.entry);
         let mut first = 0;

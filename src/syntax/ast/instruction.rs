@@ -212,8 +212,7 @@ pub struct Arguments {
     /// Arguments in the order of the text.
     pub list: Vec<Argument>,
     /// Whether the arguments stand in parentheses. After a function's name without parentheses, the current result is
-    /// the first
-    /// input, before the arguments.
+    /// the first input, before the arguments.
     pub enclosed: bool,
 }
 

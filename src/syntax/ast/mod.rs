@@ -19,8 +19,7 @@ pub use operator::{Operator, Verb};
 use crate::source::Span;
 
 /// Syntax tree of a file: its program organisation units and the declarations around them, each in the order of the
-/// text
-/// (IEC 61131-3, B.1.5).
+/// text (IEC 61131-3, B.1.5).
 #[derive(Clone, Debug, Default)]
 pub struct Unit {
     /// Programs, functions and function blocks.

@@ -15,8 +15,7 @@ use crate::syntax::expected;
 use crate::syntax::parse::Rule;
 
 /// Maximum nesting depth of parentheses. Real programs stay below ten; the limit keeps recursion over the tree within
-/// its
-/// stack.
+/// its stack.
 const MAX_DEPTH: usize = 200;
 
 /// Consumes a pair of the rule `body`: its instructions, and declaration blocks that stand between them.
@@ -134,8 +133,7 @@ impl ListBuilder {
     }
 
     /// Reports a line that cannot be read. Parentheses that it leaves open, or closes, count all the same, so that
-    /// their other
-    /// ends are not reported.
+    /// their other ends are not reported.
     fn bad_line(&mut self, pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
         let explained = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
         let at = explained.span().start - pair.as_span().start();

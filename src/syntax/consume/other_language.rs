@@ -45,8 +45,7 @@ fn language(line: &Pair<'_, Rule>) -> Option<&'static str> {
 }
 
 /// Whether a line is an assignment `name := value;`. In Instruction List `:=` stands inside parentheses only, and no
-/// `;`
-/// ends a parameter.
+/// `;` ends a parameter.
 fn is_assignment(line: &Pair<'_, Rule>) -> bool {
     let left = line.as_str().split_once(":=").map_or("", |(left, _)| left);
     let behind = line.get_input().get(line.as_span().end()..).unwrap_or_default();

@@ -8,8 +8,7 @@ use roxmltree::Node;
 const LINES: [&str; 8] = ["p", "br", "div", "li", "ol", "pre", "tr", "ul"];
 
 /// Replaces markup by blanks of the same length in bytes, with a line end for the tags of paragraphs; a reference
-/// becomes its
-/// character and blanks. The XML is well-formed.
+/// becomes its character and blanks. The XML is well-formed.
 pub fn plain(xml: &str) -> String {
     let mut out = String::with_capacity(xml.len());
     let mut rest = xml;

@@ -39,8 +39,7 @@ impl Reader<'_> {
 }
 
 /// Interval of a task, which every tool writes in its own way: `T#20ms`, `20ms`, `PT0.02S` (ISO 8601), `00:00:00.02`.
-/// `None`
-/// for a name, which may stand there as well and does not give a time.
+/// `None` for a name, which may stand there as well and does not give a time.
 fn interval(Text { text, span }: Text) -> Option<Constant> {
     let upper = text.to_ascii_uppercase();
     let clock: Vec<&str> = upper.split(':').collect();

@@ -1,14 +1,10 @@
 //! PLCopen TC6 projects in XML (versions 1.0 to 2.01), as engineering tools export them, to the same tree that the text
-//! of
-//! their units would give.
+//! of their units would give.
 //!
 //! Data types, interfaces and configurations are made of elements; a body in Instruction List and the initial values
-//! are text
-//! inside the XML and are read by the grammar of the language ([`pieces`]). Every span points into the XML. Vendors'
-//! additions
-//! (`addData`) are searched for units, types and global variables, which some tools put there; pictures, documentation
-//! and the
-//! actions of charts are ignored.
+//! are text inside the XML and are read by the grammar of the language ([`pieces`]). Every span points into the XML.
+//! Vendors' additions (`addData`) are searched for units, types and global variables, which some tools put there;
+//! pictures, documentation and the actions of charts are ignored.
 
 mod characters;
 mod configurations;

@@ -1,8 +1,7 @@
 //! Texts in a project that the grammar reads: instruction lists and initial values.
 //!
 //! The pieces are parsed all at once, from a text as long as the file that holds nothing else: each piece stands at its
-//! own
-//! offset, so that its spans are right, between two marks in the place of the markup around it.
+//! own offset, so that its spans are right, between two marks in the place of the markup around it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
