@@ -1,5 +1,5 @@
-//! `ADD x`, `SUB x`: ripple carry from the lowest bit, the carry in the control place. A difference is the sum with the
-//! complement of the operand and a carry in.
+//! `ADD x`, `SUB x`: ripple-carry adder from the lowest bit, the carry in the control place. A difference is the sum
+//! with the complement of the operand and a carry in.
 
 use super::subnet::Subnet;
 use super::walk::Stage;
@@ -8,12 +8,12 @@ use super::wire::{Wire, with};
 use crate::flat::Hazard;
 use crate::semantics::{Kind, Type};
 
-/// A full adder's sum and carry.
+/// Full adder: sum and carry.
 pub fn full(a: bool, b: bool, carry: bool) -> (bool, bool) {
     (a ^ b ^ carry, u8::from(a) + u8::from(b) + u8::from(carry) >= 2)
 }
 
-/// The alternatives of `bit := bit + wire + carry`: what changes, and both carries, in and out.
+/// Alternatives of `bit := bit + wire + carry`: the changes, and both carries, in and out.
 pub fn alternatives(bit: Bit, wire: &Wire, carry: bool) -> Vec<(Changes, [bool; 2])> {
     let mut alternatives = Vec::with_capacity(2 * wire.0.len());
     for old in VALUES {
@@ -38,7 +38,7 @@ pub fn overflows(ty: Type, subtracts: bool, [carry_in, carry_out]: [bool; 2]) ->
 enum State {
     /// Before this bit, with this carry.
     Bit(usize, bool),
-    /// Behind the highest bit, with these carries into and out of it.
+    /// After the highest bit, with these carries into and out of it.
     Done([bool; 2]),
 }
 

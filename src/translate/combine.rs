@@ -6,7 +6,7 @@ use super::wire::{Wire, with};
 use crate::flat::Function;
 use crate::semantics::Type;
 
-/// The function's table: its value for (current result, operand) = 00, 01, 10, 11.
+/// Truth table of the function: its value for (current result, operand) = 00, 01, 10, 11.
 fn table(function: Function) -> [bool; 4] {
     match function {
         Function::Or => [false, true, true, true],
@@ -15,7 +15,7 @@ fn table(function: Function) -> [bool; 4] {
     }
 }
 
-/// The bits of a wider type that a constant leaves as they are take no step.
+/// Translates a bitwise function. Bits of a wider type that a constant operand does not change take no step.
 pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, wires: &[Wire]) {
     let table = table(function);
     let value = |old: bool, value: bool| table[2 * usize::from(old) + usize::from(value)];

@@ -1,4 +1,5 @@
-//! Which places of a system net are never marked together: by construction, so that other tools need not find out.
+//! Units of a system net (NUPN): sets of places that are never marked together, by construction, so that other tools
+//! need not compute them.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,8 +9,8 @@ use super::system::System;
 use crate::net::{PlaceId, Units};
 
 impl System {
-    /// The units of the net: control, each bit, each permission to move, and the plant's components, split where several of
-    /// their places can be marked. All are safe.
+    /// Units of the net: control, each bit, each blocking place, and the plant's components, split where several of
+    /// their places can be marked. All units are safe.
     #[must_use]
     pub fn units(&self) -> Units {
         let of = |is_wanted: &dyn Fn(PlaceRole) -> bool| -> Vec<PlaceId> {
@@ -33,8 +34,8 @@ impl System {
     }
 }
 
-/// The places of a component in groups of which no reachable marking has two. The markings are known, whatever the outputs
-/// are. Each place goes to the first group it fits in.
+/// Groups of places of a component of which no reachable marking, for any values of the outputs, has two. Greedy: each
+/// place goes to the first group it fits in.
 fn exclusive(component: &Component) -> Vec<Vec<usize>> {
     let count = component.places.len();
     let mut together = vec![FixedBitSet::with_capacity(count); count];
