@@ -1,4 +1,4 @@
-//! What is accepted and what is refused, one small program each.
+//! Accepted and refused programs, each small.
 
 use crate::diagnostic::Code::{self, *};
 use crate::semantics::testing::findings;
@@ -18,12 +18,12 @@ VAR b, c : BOOL; n, m : INT; d : DINT; s : SINT; u : UINT; w, v : WORD; y : BYTE
     timer : TON; up : CTU; latch : SR; edge : R_TRIG; tally : count; END_VAR
 ";
 
-/// The line of a body's first instruction.
+/// Line of a body's first instruction.
 fn first_line() -> usize {
     AROUND.lines().count() + 1
 }
 
-/// The errors in a body of the program above: codes, and lines counted from 1.
+/// Errors in a body of the program above: codes, and lines counted from 1.
 fn errors(body: &str) -> Vec<(Code, usize)> {
     let found = findings(&format!("{AROUND}{}\nEND_PROGRAM", body.replace("; ", "\n")));
     let errors = found.into_iter().filter(|(code, _)| code.id().starts_with('E'));
@@ -269,7 +269,7 @@ fn calls_are_written_out_to_a_size() {
     assert_eq!(errors.iter().filter(|&&code| code == ProgramTooLarge).count(), 1, "{errors:?}");
 }
 
-/// Nothing says of which type a literal is, and operators of other types would give other values.
+/// Literals without a type, where operators of other types would give other values.
 #[test]
 fn literals_whose_type_makes_a_difference() {
     let doubts = |body: &str| {
