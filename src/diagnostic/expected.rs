@@ -22,14 +22,14 @@ pub fn expected<R: RuleType>(
     };
     // The end of the text is where its last word ends.
     let at = if text[at..].trim().is_empty() { at.min(text.trim_end().len()) } else { at };
-    // Blanks that the grammar does not know belong to no token.
+    // Blanks that the grammar does not know are not part of a token.
     let blanks = text[at..].find(|c: char| c == '\n' || !c.is_whitespace()).unwrap_or(0);
     let at = at + blanks;
     let token = first_token(&text[at..]);
     let span = Span::new(start + at, start + at + token.len());
     let found = if token.is_empty() { end.to_owned() } else { format!("`{token}`") };
     let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
-        // The parser's stack is limited, so that no text overflows the program's.
+        // The depth of the parser is limited, so that no text overflows the program's stack.
         return Diagnostic::new(code, Span::new(start + at, start + at), "what stands here is nested too deeply");
     };
     let mut names: Vec<&str> = Vec::new();

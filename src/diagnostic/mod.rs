@@ -1,4 +1,4 @@
-//! Diagnostics as data: a code, a message, labelled spans, and help that says how to mend it.
+//! Diagnostics as data: a code, a message, labelled spans, and help that says how to correct it.
 //!
 //! A label says what is there; help says what to do. Nothing here prints: [`render()`] returns text, and the command
 //! line prints it.

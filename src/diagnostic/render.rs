@@ -91,7 +91,7 @@ fn excerpt<'a>(
     let lines = diagnostic.labels.iter().flat_map(|l| [l.span.start, l.span.end]).map(|o| source.line_of(clamp(o)));
     let first = lines.clone().min().unwrap_or(1).saturating_sub(CONTEXT).max(1);
     let window = source.lines(first, lines.max().unwrap_or(1) + CONTEXT);
-    // Between labels that are far apart on one line, the renderer leaves nothing out.
+    // The renderer prints everything between labels on one line, however far apart they are.
     let mut starts = diagnostic.labels.iter().map(|label| source.line_of(clamp(label.span.start)));
     let is_long = starts.any(|line| source.line_text(line).len() > MAX_LINE);
     let labels = if is_long { 1 } else { diagnostic.labels.len() };

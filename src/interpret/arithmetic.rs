@@ -68,7 +68,7 @@ mod tests {
         Type::named(name).unwrap_or_else(|| panic!("{name}"))
     }
 
-    /// The function of two numbers of a type.
+    /// Value and hazard of a function of two numbers of a type.
     fn of(function: Function, name: &str, a: i128, b: i128) -> (i128, Option<Hazard>) {
         let ty = ty(name);
         let (pattern, hazard) = combine(function, ty, ty.pattern(a), ty.pattern(b));

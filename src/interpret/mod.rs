@@ -104,7 +104,7 @@ impl<'p> Machine<'p> {
     }
 
     /// Executes one instruction, or none at the end of the scan; returns the hazard it met.
-    // Scans spend their time here; inlined into their loop it takes half of it.
+    // Scans spend their time here; inlining halves the time of their loop.
     #[inline(always)]
     pub fn step(&mut self) -> Option<Hazard> {
         let line = self.program.code.get(self.line)?;
@@ -203,7 +203,7 @@ impl<'p> Machine<'p> {
         Ok(())
     }
 
-    /// Whether line, memory and current result are the same.
+    /// Whether line, memory and current result are those of the other machine.
     #[must_use]
     pub fn same_state(&self, other: &Self) -> bool {
         self.line == other.line && self.result == other.result && self.memory == other.memory

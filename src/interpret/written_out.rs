@@ -1,4 +1,4 @@
-//! Flattened calls, arrays and functions, executed.
+//! Execution of inlined calls, arrays and functions.
 
 use super::Machine;
 use crate::flat::{FlatProgram, Hazard, flatten, flatten_with};

@@ -10,7 +10,7 @@ pub type Unfit = String;
 /// Number that a literal stands for in a type.
 ///
 /// # Errors
-/// [`Unfit`] if the literal is not a value of the type.
+/// The reason, if the literal is not a value of the type.
 pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
     let ty = scalar.ty;
     let none = || format!("is no value of type `{scalar}`");

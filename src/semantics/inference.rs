@@ -133,7 +133,7 @@ impl Inference {
         at
     }
 
-    /// Makes two types equal.
+    /// Unifies two types: makes them equal.
     ///
     /// # Errors
     /// The known types of both, if they differ.

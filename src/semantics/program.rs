@@ -69,7 +69,7 @@ pub struct VarId(pub usize);
 /// Role of a variable of flat code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// `VAR_INPUT`: given by the plant before every scan.
+    /// `VAR_INPUT`: set by the plant before every scan.
     Input,
     /// `VAR`: keeps its value from scan to scan.
     Memory,
@@ -221,9 +221,9 @@ pub struct Call {
     pub callee: Callee,
     /// Variable of the callee that CR is stored in first, and its type.
     pub result_to: Option<(usize, TypeId)>,
-    /// Values for variables of the callee, in the order of the text.
+    /// Values for inputs of the callee (by the position of the variable), in the order of the text.
     pub inputs: Vec<(usize, Feed)>,
-    /// Variables of the caller for the in-out variables of the callee.
+    /// Variables of the caller bound to the in-out variables of the callee.
     pub in_outs: Vec<(usize, Place)>,
     /// Variables of the caller that receive outputs, in the order of the text; complemented if `true`.
     pub outputs: Vec<(usize, bool, Place)>,

@@ -1,7 +1,7 @@
 //! The current result is used only where a load has given it a value, on every path of control.
 //!
 //! Passes: `LD a`, `ST b`.
-//! Fails: `ST b` as the first instruction; `LD a` reached by no path that jumps over it.
+//! Fails: `ST b` as the first instruction; `ST b` after an `LD a` that a path jumps over.
 
 use petgraph::Direction;
 use petgraph::graph::NodeIndex;

@@ -37,7 +37,7 @@ fn scan(text: &str) -> impl Iterator<Item = Comment> {
                     None => (bytes.len(), Some(Kind::Unclosed)),
                 },
                 [b'/', b'/', ..] => (line_end(bytes, at), Some(Kind::ToLineEnd)),
-                // Text in quotes holds no comments; it ends with its line at the latest.
+                // Text in quotes has no comments; it ends with its line at the latest.
                 [quote @ (b'\'' | b'"'), rest @ ..] => {
                     let stop = rest.iter().position(|b| b == quote || *b == b'\n').unwrap_or(rest.len());
                     ((at + stop + 2).min(bytes.len()), None)

@@ -49,7 +49,7 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, subtracts: bool, wires: Vec<
         if bit + 1 == wires.len() { State::Done(carries) } else { State::Bit(bit + 1, carries[1]) }
     };
     subnet.walk(here, State::Bit(0, subtracts), |subnet, state| match *state {
-        // If operand and carry are both 0 or both 1, the bit stays as it is, and the carry too.
+        // If operand and carry are equal, neither the bit nor the carry changes.
         State::Bit(bit, carry) if wires[bit].known() == Some(carry) => Stage::Same(after(bit, [carry; 2])),
         State::Bit(bit, carry) => {
             let alternatives = alternatives(result[bit], &wires[bit], carry).into_iter();

@@ -1,4 +1,5 @@
-//! `AND x`, `OR x`, `XOR x` and their N forms: one transition for each pair of current result and operand, bit by bit.
+//! `AND x`, `OR x`, `XOR x` and their N forms, bit by bit: one transition for each pair of values of current result and
+//! operand.
 
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;

@@ -59,19 +59,19 @@ pub enum PlaceRole {
         /// Value of the bit.
         value: bool,
     },
-    /// Control is before this line (from 0); the line after the last is `End`.
+    /// Control place before this line (from 0); the line after the last is `End`.
     Line(usize),
-    /// Control is within this line (from 0), at one of its places, counted from 1.
+    /// Control place within this line (from 0), by its number in the line, from 1.
     Within(usize, u32),
-    /// Control is within this line (from 0), and the hazard has just happened there.
+    /// Control place within this line (from 0) that is reached when the hazard has happened there.
     Hazard(usize, Hazard),
-    /// Control is between two scans.
+    /// Control place between two scans.
     Idle,
-    /// Control is before the copying of this input.
+    /// Control place before the copying of this input.
     Copy(VarId),
-    /// Control is within the copying of this input, at one of its places, counted from 1.
+    /// Control place within the copying of this input, by its number there, from 1.
     Copying(VarId, u32),
-    /// The plant component (counted over all plants) may move.
+    /// Blocking place: marked while the plant component (counted over all plants) may move.
     Blocking(usize),
     /// Place of the plant component (counted over all plants).
     Plant(usize),

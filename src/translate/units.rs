@@ -17,7 +17,7 @@ impl System {
             self.net.place_ids().filter(|place| is_wanted(self.places[place.index()])).collect()
         };
         let mut units = vec![of(&PlaceRole::is_control)];
-        // The two places of a bit follow each other.
+        // The two places of a bit have consecutive ids.
         units.extend(of(&PlaceRole::is_bit).chunks(2).map(<[PlaceId]>::to_vec));
         units.extend(of(&|role| matches!(role, PlaceRole::Blocking(_))).into_iter().map(|place| vec![place]));
         let mut members = vec![Vec::new(); self.plant.components.len()];

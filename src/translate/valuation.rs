@@ -1,4 +1,5 @@
-//! Plant places named by a valuation, like `S1=1,level=-5`: while the place is marked, these variables have these values.
+//! Plant places named by a valuation, like `S1=1,level=-5`: while the place is marked, these variables have these
+//! values.
 
 /// Variable and value, as they are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

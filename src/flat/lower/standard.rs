@@ -22,7 +22,7 @@ impl<'p> Lowering<'p> {
         let first_ty = frame.pou.types[first.ty.0];
         let early = early(standard.arguments.iter());
         let ready: Vec<VarId> = standard.arguments[..early].iter().map(|feed| self.ready(frame, feed, depth)).collect();
-        // Nothing may disturb the current result once the first argument is in it.
+        // The current result must not change once the first argument is in it.
         let kept = matches!(first.source, FeedSource::Result).then_some(first_ty);
         let rest = standard.arguments.iter().enumerate().skip(1);
         let rest: Vec<Argument> =

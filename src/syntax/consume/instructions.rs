@@ -157,7 +157,7 @@ impl ListBuilder {
     }
 
     fn finish(mut self, diagnostics: &mut Vec<Diagnostic>) -> Vec<Instruction> {
-        // Every open parenthesis is one error, but a reader learns nothing from the hundredth.
+        // Every open parenthesis is an error, but only the innermost is reported.
         if let Some(innermost) = self.open.last() {
             let message = match self.open.len() + self.too_deep {
                 1 => "this parenthesis is never closed".to_owned(),

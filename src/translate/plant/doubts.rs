@@ -1,4 +1,4 @@
-//! Doubtful parts of a plant: they can be taken as they are, but a name is probably mistyped.
+//! Warnings about doubtful parts of a plant, which is accepted as it is: a name is probably mistyped.
 
 use std::collections::BTreeSet;
 
