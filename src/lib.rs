@@ -36,23 +36,17 @@
 //! `docs/architecture.md` says what the modules are for and in which order they stand; `docs/semantics.md` what exactly is
 //! proved.
 
-pub mod diagnostic;
 pub mod draw;
 pub mod exchange;
 pub mod explore;
-pub mod flat;
-pub mod interpret;
 pub mod logic;
 pub mod net;
-pub mod printable;
-mod rows;
-pub mod semantics;
 pub mod sif;
 pub mod simulate;
-pub mod source;
 pub mod structure;
-pub mod syntax;
 pub mod translate;
 pub mod verdict;
 pub mod witness;
-mod xml;
+
+pub use petril_base::{diagnostic, printable, source};
+pub use petril_lang::{flat, interpret, semantics, syntax};

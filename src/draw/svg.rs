@@ -8,7 +8,7 @@ use quick_xml::escape::escape;
 
 use super::picture::{Anchor, At, DrawnArc, DrawnPlace, DrawnText, DrawnTransition, Head, Picture, PlaceStyle};
 use crate::net::{PlaceId, TransitionId};
-use crate::printable;
+use petril_base::printable;
 
 /// Radius of a place.
 pub const RADIUS: f64 = 12.0;

@@ -2,12 +2,12 @@
 
 use super::Provenance;
 use crate::logic::{Origin, View};
-use crate::printable;
-use crate::semantics::VarId;
-use crate::source::Source;
 use crate::translate::System;
 use crate::verdict::{Answer, Change, Focus, Independence, Outcome, Report, Trace, Why, Witness};
 use crate::witness::{Shown, firing_table, piecewise_scan_table};
+use petril_base::printable;
+use petril_base::source::Source;
+use petril_lang::semantics::VarId;
 
 /// A report, the system it is about, and the text of its program.
 #[derive(Clone, Copy, Debug)]

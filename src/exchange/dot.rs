@@ -4,7 +4,7 @@ use std::io;
 
 use super::text;
 use crate::net::Net;
-use crate::printable;
+use petril_base::printable;
 
 /// Writes a net: places as circles, the marked ones with a token, transitions as boxes. The head of a read arc is a dot, as
 /// in the seed paper's figure 2.

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::diagnostic::{Code, Diagnostic};
 use crate::net::{Builder, Located, PlaceId, Units};
-use crate::source::{ShortSpan, Source, Span};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{ShortSpan, Source, Span};
 
 /// The most tokens a place may begin with, and the greatest weight: sums of many are still numbers.
 pub const MAX_COUNT: u64 = 1 << 40;

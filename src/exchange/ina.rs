@@ -33,8 +33,8 @@ use std::io;
 use super::escape::{Alphabet, escaped};
 use super::text;
 use crate::net::{Net, PlaceId, TransitionId};
-use crate::printable::is_printable;
-use crate::rows::Rows;
+use petril_base::Rows;
+use petril_base::printable::is_printable;
 
 /// The longest name.
 const LONGEST: usize = 16;

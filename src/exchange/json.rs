@@ -4,13 +4,13 @@
 use serde_json::{Map, Value, json};
 
 use super::checked::{Checked, Purpose, runs, why};
-use crate::diagnostic::Diagnostic;
 use crate::logic::View;
-use crate::semantics::{Role, Type, VarId};
-use crate::source::Source;
 use crate::translate::{Part, System, TransitionRole};
 use crate::verdict::{Answer, Change, Coverage, Independence, Outcome, Remark, Trace, Why, Witness};
 use crate::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
+use petril_base::diagnostic::Diagnostic;
+use petril_base::source::Source;
+use petril_lang::semantics::{Role, Type, VarId};
 
 /// A last scan that takes more instructions is not told.
 const MAX_INSTRUCTIONS: usize = 1 << 20;

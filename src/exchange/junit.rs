@@ -11,8 +11,8 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 use super::checked::{Checked, tags, why};
 use super::stamp::Stamp;
 use super::text;
-use crate::printable::{self, line};
 use crate::verdict::{Answer, Outcome, Verdict};
+use petril_base::printable::{self, line};
 
 type Xml<'o> = Writer<&'o mut Vec<u8>>;
 

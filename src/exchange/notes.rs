@@ -1,7 +1,7 @@
 //! What can be said about the nodes of a net beside its structure.
 
-use crate::source::Source;
 use crate::translate::{Part, PlaceRole, System, TransitionRole};
+use petril_base::source::Source;
 
 /// What there is to say about one node: pairs of a word and a value, in the order to be written.
 pub type Note = Vec<(&'static str, String)>;

@@ -9,8 +9,8 @@
 
 use serde_json::{Map, Value};
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
 
 /// A property of a file, before it is read as a requirement.
 #[derive(Clone, Debug, PartialEq, Eq)]

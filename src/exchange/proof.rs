@@ -2,10 +2,10 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::semantics::VarId;
 use crate::sif::SignalId;
 use crate::sif::proof::{By, Confirmed, Failure, Form, Outcome, Proof, Scan, Subject};
-use crate::source::Source;
+use petril_base::source::Source;
+use petril_lang::semantics::VarId;
 
 /// A proof; `source` is the text of the program.
 #[must_use]

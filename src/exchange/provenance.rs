@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::printable::line;
+use petril_base::printable::line;
 
 /// Version of this program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

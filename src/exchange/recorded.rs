@@ -2,12 +2,12 @@
 
 use serde_json::{Map, Value};
 
-use crate::flat::FlatProgram;
-use crate::semantics::{Role, VarId};
 use crate::simulate::Plan;
 use crate::translate::System;
 use crate::verdict::Note;
 use crate::witness::{PlantMove, Scan};
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Role, VarId};
 
 /// A run of the scan view, as a report has it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,10 +3,10 @@
 
 use super::checked::{Checked, runs, tags, why};
 use super::{Provenance, table};
-use crate::semantics::{Role, VarId};
 use crate::translate::System;
 use crate::verdict::{Answer, Outcome, Trace};
 use crate::witness::firing_story;
+use petril_lang::semantics::{Role, VarId};
 
 /// The columns of a report.
 const COLUMNS: [&str; 21] = [

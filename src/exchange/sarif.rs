@@ -9,13 +9,13 @@ use serde_json::{Map, Value, json};
 use super::checked::{Checked, tags, why};
 use super::stamp::Stamp;
 use super::{COMMIT, VERSION};
-use crate::flat::{Hazard, value_text};
 use crate::logic::Origin;
-use crate::printable::line;
-use crate::semantics::Role;
 use crate::translate::TransitionRole;
 use crate::verdict::{Answer, Outcome, Trace, Verdict, Witness};
 use crate::witness::{Executed, firing_story, story};
+use petril_base::printable::line;
+use petril_lang::flat::{Hazard, value_text};
+use petril_lang::semantics::Role;
 
 /// A last scan that takes more instructions is not stepped through.
 const MAX_INSTRUCTIONS: usize = 1 << 16;

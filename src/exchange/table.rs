@@ -6,7 +6,7 @@
 use std::io;
 
 use super::text;
-use crate::printable::line;
+use petril_base::printable::line;
 
 /// Signs that begin a formula, those of full width too.
 const BEGINNINGS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];

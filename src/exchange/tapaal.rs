@@ -23,7 +23,7 @@ use std::fmt::Write as _;
 use quick_xml::escape::escape;
 
 use crate::net::{Net, TransitionId};
-use crate::printable;
+use petril_base::printable;
 
 /// The most tokens a trace may tell of: each is an element of its own.
 const MAX_TOKENS: u64 = 10_000_000;

@@ -6,11 +6,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::flat::FlatProgram;
-use crate::printable;
-use crate::semantics::{Kind, Role, VarId};
 use crate::translate::System;
 use crate::witness::{Scan, ScanTrace};
+use petril_base::printable;
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Kind, Role, VarId};
 
 /// A trace with all declared variables. The title says what is shown. Values that are not known, since their scan never
 /// ends, are `x`.

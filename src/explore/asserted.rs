@@ -6,8 +6,8 @@ use super::coverage::starts;
 use super::graph::Graph;
 use super::scan_space::ScanSpace;
 use super::space::StateSpace;
-use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 
 /// A scan in which something was seen.
 #[derive(Clone, Debug, PartialEq, Eq)]

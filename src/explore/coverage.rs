@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::circuit::{Circuit, LANES, Scratch};
 use super::graph::Graph;
 use super::scan_space::{ScanSpace, ScanState};
-use crate::flat::{Condition, FlatProgram, Instruction};
+use petril_lang::flat::{Condition, FlatProgram, Instruction};
 
 /// States looked at one after another before all are looked at: mostly every line is seen soon.
 const FIRST: usize = 256;

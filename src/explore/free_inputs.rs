@@ -2,8 +2,8 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use crate::semantics::VarId;
 use crate::translate::{Domain, System};
+use petril_lang::semantics::VarId;
 
 /// States have at most this many successors for their plant's marking; more would take minutes and gigabytes for one state.
 pub const MAX_FAN_OUT: u128 = 1 << 24;

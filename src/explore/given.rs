@@ -4,8 +4,8 @@
 //! other, and look at nothing but outputs; so a list for each device says exactly which runs there are.
 
 use super::scan_space::{ScanSpace, ScanState};
-use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 
 /// Where such a run is at the end of a scan, or at power-on.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use fixedbitset::FixedBitSet;
 
 use super::budget::Stop;
 use super::space::Failure;
-use crate::rows::Rows;
+use petril_base::Rows;
 
 /// A graph of states numbered in breadth-first order, so that a state's number never exceeds that of a state farther away.
 pub struct Graph {

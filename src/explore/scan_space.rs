@@ -16,11 +16,11 @@ use super::graph::Graph;
 use super::layout::{Field, Layout};
 use super::scan_lanes::Lanes;
 use super::space::{Admission, Failure, StateSpace, Step, Successors};
-use crate::flat::{Tolerated, Variable};
-use crate::interpret::Machine;
 use crate::net::PlaceId;
-use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System};
+use petril_lang::flat::{Tolerated, Variable};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 use smallvec::SmallVec;
 
 /// The scan states of a system.

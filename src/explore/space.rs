@@ -1,9 +1,9 @@
 //! The seam between what has states and what explores them.
 
-use crate::flat::Hazard;
-use crate::interpret::Fault;
 use crate::net::PlaceId;
-use crate::semantics::VarId;
+use petril_lang::flat::Hazard;
+use petril_lang::interpret::Fault;
+use petril_lang::semantics::VarId;
 
 /// A system as states and steps. A state is a vector of `u64` words, of the same length for all states.
 ///

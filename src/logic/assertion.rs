@@ -5,9 +5,9 @@ use super::bind::{View, bind};
 use super::bound::Bound;
 use super::formula::Quantifier;
 use super::parse::{AssertionText, Origin};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::syntax::without_comments;
 use crate::translate::{PlaceRole, System};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_lang::syntax::without_comments;
 
 /// An assertion in a program.
 #[derive(Clone, Debug)]

@@ -5,10 +5,10 @@ use super::bind::{View, bind};
 use super::bound::{Bound, Term, Valuation};
 use super::parse::AssumptionText;
 use super::past::Past;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::explore::Admission;
-use crate::semantics::{Role, VarId};
 use crate::translate::System;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_lang::semantics::{Role, VarId};
 
 /// An assumption about the inputs that a scan reads, and about the values at the end of the scan before.
 #[derive(Clone, Debug)]

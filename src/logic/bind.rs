@@ -8,11 +8,11 @@ use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past as 
 use super::ltl::Path;
 use super::parse::of_ctl;
 use super::past::Past;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::Role;
-use crate::source::Span;
 use crate::translate::System;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_lang::semantics::Role;
 
 mod fairness;
 mod nodes;

@@ -6,7 +6,7 @@ use super::formula::{Comparison, Quantifier};
 use super::ltl::Path;
 use super::past::Past;
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::{Type, VarId};
+use petril_lang::semantics::{Type, VarId};
 
 /// A formula over the states of one view. `F` and `G` are written as untils: `F g` = `TRUE U g`, `G f` = `f W FALSE`.
 #[derive(Clone, Debug, PartialEq, Eq)]

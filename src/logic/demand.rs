@@ -4,8 +4,8 @@ use super::bind::{View, bind};
 use super::bound::Bound;
 use super::formula::{Amount, Duration, Expression, Formula};
 use super::parse::{Body, Requirement};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::translate::System;
+use petril_base::diagnostic::{Code, Diagnostic};
 
 /// What is asked.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! What a free input can be, as it is written: `level: 0..100`, `k: 0, 3, 7`.
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::FlatProgram;
-use crate::semantics::Role;
-use crate::source::Span;
 use crate::translate::{Domain, Domains, Plant};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::Role;
 
 /// A line about the values of an input, before its name means anything.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Formulas as they are written, before their names mean anything.
 
 use super::ltl::Path;
-use crate::source::Span;
+use petril_base::source::Span;
 
 /// A formula or a part of one, and where it stands.
 #[derive(Clone, Debug)]

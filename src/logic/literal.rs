@@ -1,6 +1,6 @@
 //! Literals of IEC 61131-3 in formulas and domains: `-5`, `1_000`, `16#FF`, `INT#-5`, `BYTE#16#0F`, `T#1s500ms`.
 
-use crate::semantics::{Kind, Type};
+use petril_lang::semantics::{Kind, Type};
 
 /// The number a literal stands for; a time counts its milliseconds.
 ///

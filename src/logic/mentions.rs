@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::bound::{Bound, Term};
 use super::past::Past;
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// The variables and numbers of a formula bound for the scan view.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

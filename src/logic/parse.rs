@@ -14,8 +14,8 @@ use super::domain::DomainText;
 use super::fairness::FairnessText;
 use super::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Quantifier, Temporal};
 use super::literal;
-use crate::diagnostic::{self, Code, Diagnostic};
-use crate::source::{Source, Span};
+use petril_base::diagnostic::{self, Code, Diagnostic};
+use petril_base::source::{Source, Span};
 
 mod fairness;
 mod file;

@@ -7,9 +7,9 @@
 use super::bound::{Bound, Term};
 use super::formula::Comparison;
 use super::past::Past;
-use crate::flat::{Cuts, FlatProgram};
-use crate::semantics::VarId;
 use crate::translate::{Domain, Domains, System};
+use petril_lang::flat::{Cuts, FlatProgram};
+use petril_lang::semantics::VarId;
 
 /// For each free input without a domain that the program and the formulas, which are bound for the scan view, only compare
 /// with constants: values that stand for all others.

@@ -4,8 +4,8 @@ use super::bind::View;
 use super::formula::{Expression, Formula};
 use super::ltl::Path;
 use super::parse::{Body, Requirement};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
 
 /// A part of a formula that is about the first state alone.
 struct Outside {

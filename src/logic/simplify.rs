@@ -174,7 +174,7 @@ impl Term {
 mod tests {
     use crate::logic::{Nodes, bind_in_net, parse_formula};
     use crate::net::{Arcs, Builder};
-    use crate::source::Source;
+    use petril_base::source::Source;
 
     /// What is left of a formula about a net with the places `p` and `q`, where `P` stands for
     /// `marked("p")`, `#p` for `tokens("p")` and `D` for `at deadlock`.

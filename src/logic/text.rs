@@ -5,10 +5,10 @@ use super::dag::{Dag, Node, NodeId};
 use super::formula::{Comparison, Quantifier};
 use super::ltl::Path;
 use super::past::Past;
-use crate::flat::value_text;
 use crate::net::{Net, PlaceId, TransitionId};
-use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System};
+use petril_lang::flat::value_text;
+use petril_lang::semantics::{Role, VarId};
 
 /// What atoms are called.
 #[derive(Clone, Copy)]

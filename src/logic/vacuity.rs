@@ -94,7 +94,7 @@ impl Premise<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::semantics::VarId;
+    use petril_lang::semantics::VarId;
 
     fn variable(v: usize) -> Bound {
         Bound::Variable(VarId(v))

@@ -4,7 +4,7 @@ use super::bound::Valuation;
 use super::past::{History, Past, remembered};
 use crate::explore::{Markings, Observer, ScanSpace};
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// A packed scan state. Formulas bound for the scan view speak of variables, and fairness assumptions of the plant's places.
 pub struct ScanValuation<'a>(pub &'a ScanSpace<'a>, pub &'a [u64]);

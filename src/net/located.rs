@@ -1,8 +1,8 @@
 //! A net together with where its nodes stand in the file it was read from.
 
 use super::{Net, PlaceId, TransitionId, Units};
-use crate::diagnostic::Diagnostic;
-use crate::source::Span;
+use petril_base::diagnostic::Diagnostic;
+use petril_base::source::Span;
 
 /// A net read from a text, so that diagnostics can point at its nodes.
 #[derive(Clone, Debug)]

@@ -37,46 +37,10 @@ pub use marking::{Marking, NotSafe};
 pub use tokens::{Overflow, Tokens};
 pub use units::{Unit, Units};
 
-use crate::printable;
 use arcs::ArcTable;
 use names::Names;
-use serde::{Deserialize, Serialize};
-
-/// A place, as a position in its net.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PlaceId(u32);
-
-/// A transition, as a position in its net.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct TransitionId(u32);
-
-impl PlaceId {
-    /// The place at a position, which must be one of the net's.
-    #[must_use]
-    pub fn at(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// The position, from 0.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-impl TransitionId {
-    /// The transition at a position, which must be one of the net's.
-    #[must_use]
-    pub fn at(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    /// The position, from 0.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use petril_base::printable;
+pub use petril_base::{PlaceId, TransitionId};
 
 /// A place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Names, one after another in one text: a net may have millions.
 
-use crate::printable::{is_printable, line};
+use petril_base::printable::{is_printable, line};
 
 /// The names of nodes, by position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

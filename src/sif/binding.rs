@@ -4,9 +4,9 @@ use fixedbitset::FixedBitSet;
 
 use super::formula::SignalId;
 use super::specification::{Binding, Kind, Place, Specification};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::FlatProgram;
-use crate::semantics::{Role, VarId};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Role, VarId};
 
 /// A diagnostic in one of the files of a specification, by its position.
 pub type Located = (usize, Diagnostic);

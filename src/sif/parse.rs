@@ -11,11 +11,11 @@ use pest_derive::Parser;
 use super::formula::{Formula, Operator};
 use super::scan::{MAX_DEPTH, scan};
 use super::written::{Name, Written, WrittenBinding, WrittenFunction, WrittenInput, WrittenOutput, WrittenRestriction};
-use crate::diagnostic::{self, Code, Diagnostic};
 use crate::logic::number;
 use crate::logic::priorities::{chained, connectives};
 use crate::logic::two_comparisons;
-use crate::source::{Source, Span};
+use petril_base::diagnostic::{self, Code, Diagnostic};
+use petril_base::source::{Source, Span};
 
 #[derive(Parser)]
 #[grammar = "../grammar/expression.pest"]

@@ -10,9 +10,9 @@ use super::formula::{Formula, SignalId};
 use super::parse::parse;
 use super::specification::{Binding, Function, Kind, Place, Restriction, Scope, Signal, Specification, Zone};
 use super::written::{Name, Written, WrittenBinding, WrittenFunction, WrittenInput, WrittenRestriction};
-use crate::diagnostic::{Code, Diagnostic, any_error};
-use crate::source::Source;
-use crate::syntax::ast::key;
+use petril_base::diagnostic::{Code, Diagnostic, any_error};
+use petril_base::source::Source;
+use petril_lang::syntax::ast::key;
 
 impl Specification {
     /// Reads files as one specification, with the diagnostics of each. There is none if any of these is an error.

@@ -1,7 +1,7 @@
 //! What is looked at before the grammar reads a file: texts and comments that never end, and parentheses too deep to follow.
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
 
 /// How deeply parentheses may be nested, and how many implications may follow each other. Whatever walks formulas stays
 /// within its stack.

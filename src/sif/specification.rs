@@ -3,7 +3,7 @@
 use fixedbitset::FixedBitSet;
 
 use super::formula::{Formula, SignalId};
-use crate::source::Span;
+use petril_base::source::Span;
 
 /// A whole specification, of one file or several.
 #[derive(Clone, Debug, Default)]

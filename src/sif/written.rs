@@ -1,7 +1,7 @@
 //! A specification file as it is written, before names mean anything.
 
 use super::formula::Formula;
-use crate::source::Span;
+use petril_base::source::Span;
 
 /// A name where it stands.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! Where a run stops.
 
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::{Bound, View, bind, parse_formula};
-use crate::source::Source;
 use crate::translate::System;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Source;
 
 /// A condition at which a run stops.
 #[derive(Clone, Debug)]

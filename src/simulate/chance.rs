@@ -4,9 +4,9 @@ use super::lots::Lots;
 use super::plan::Plan;
 use super::walk::Walk;
 use crate::explore::ScanState;
-use crate::flat::{Instruction, Operand};
-use crate::semantics::VarId;
 use crate::translate::{Domain, System};
+use petril_lang::flat::{Instruction, Operand};
+use petril_lang::semantics::VarId;
 
 /// A free input changes before one scan in so many: what needs several scans, like a timer, should come about.
 const CHANGES: u128 = 4;

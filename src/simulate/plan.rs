@@ -3,11 +3,11 @@
 use std::fmt;
 
 use crate::explore::{Failure, ScanState};
-use crate::flat::Tolerated;
-use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
 use crate::translate::System;
 use crate::witness::{PlantMove, Scan};
+use petril_lang::flat::Tolerated;
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 
 /// What is done before a scan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

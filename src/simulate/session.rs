@@ -7,11 +7,11 @@ use super::stopped::Stopped;
 use super::watch::Watch;
 use super::within::Within;
 use crate::explore::{Failure, ScanState};
-use crate::flat::Tolerated;
 use crate::net::TransitionId;
-use crate::semantics::{Role, Type, VarId};
 use crate::translate::{PlaceRole, System};
 use crate::witness::{PlantMove, Replay, Scan};
+use petril_lang::flat::Tolerated;
+use petril_lang::semantics::{Role, Type, VarId};
 
 /// A run that can be taken forward and back, by scans, lines and transitions, and whose inputs can be chosen before each scan.
 ///

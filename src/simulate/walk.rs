@@ -5,9 +5,9 @@
 
 use super::lots::Lots;
 use crate::explore::ScanState;
-use crate::semantics::VarId;
 use crate::translate::System;
 use crate::witness::PlantMove;
+use petril_lang::semantics::VarId;
 
 /// How many scans a goal lasts, at most.
 const LASTS: u32 = 32;

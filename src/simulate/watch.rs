@@ -1,7 +1,7 @@
 //! A condition along a run, scan by scan, with what it has to remember.
 
 use crate::logic::{Bound, History, Past, Valuation, remembered};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// Watches a condition that is about the end of a scan and perhaps about scans before.
 #[derive(Clone, Debug)]

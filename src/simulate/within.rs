@@ -2,11 +2,11 @@
 
 use super::plan::{self, Impossible, Plan};
 use crate::explore::ScanState;
-use crate::flat::{Hazard, Tolerated};
 use crate::net::TransitionId;
-use crate::semantics::VarId;
 use crate::translate::{PlaceRole, System, TransitionRole};
 use crate::witness::{Disagreement, PlantMove, Replay, Scan};
+use petril_lang::flat::{Hazard, Tolerated};
+use petril_lang::semantics::VarId;
 
 /// A scan that has begun with a firing of the plant or the PLC's cycle.
 #[derive(Clone, Debug)]

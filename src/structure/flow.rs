@@ -2,7 +2,7 @@
 //! sides, as if its tokens were taken and put back.
 
 use crate::net::{Net, PlaceId, TransitionId};
-use crate::rows::Rows;
+use petril_base::Rows;
 
 /// The places before and behind each transition, ascending, and the transitions before and behind each place.
 #[derive(Clone, Debug)]

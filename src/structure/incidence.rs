@@ -1,7 +1,7 @@
 //! What firing changes: the incidence matrix of a net, without its zeros.
 
 use crate::net::{Net, PlaceId, TransitionId};
-use crate::rows::Rows;
+use petril_base::Rows;
 
 /// The incidence matrix, by rows and by columns. Read arcs change nothing, so they are not in it.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use super::subnet::Subnet;
 use super::walk::Stage;
 use super::weaver::{Bit, Changes, VALUES};
 use super::wire::{Wire, with};
-use crate::flat::Hazard;
-use crate::semantics::{Kind, Type};
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::{Kind, Type};
 
 /// Full adder: sum and carry.
 pub fn full(a: bool, b: bool, carry: bool) -> (bool, bool) {

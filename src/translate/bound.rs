@@ -7,9 +7,9 @@ use super::subnet::{Step, Subnet};
 use super::walk::Stage;
 use super::weaver::VALUES;
 use super::wire::Wire;
-use crate::flat::Hazard;
 use crate::net::PlaceId;
-use crate::semantics::Type;
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::Type;
 
 /// Translates a range check. A number outside goes through the place of the hazard; an index then becomes the least
 /// one.

@@ -4,8 +4,8 @@
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
 use super::wire::{Wire, with};
-use crate::flat::Function;
-use crate::semantics::Type;
+use petril_lang::flat::Function;
+use petril_lang::semantics::Type;
 
 /// Truth table of the function: its value for (current result, operand) = 00, 01, 10, 11.
 fn table(function: Function) -> [bool; 4] {

@@ -8,8 +8,8 @@ use super::subnet::Subnet;
 use super::walk::Stage;
 use super::weaver::{Bit, Changes, VALUES};
 use super::wire::{Wire, with};
-use crate::flat::Function;
-use crate::semantics::Type;
+use petril_lang::flat::Function;
+use petril_lang::semantics::Type;
 
 /// Whether an ordering of current result and operand makes the comparison true.
 fn truth(function: Function, ordering: Ordering) -> bool {

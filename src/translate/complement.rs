@@ -4,7 +4,7 @@ use smallvec::smallvec;
 
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
-use crate::semantics::Type;
+use petril_lang::semantics::Type;
 
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type) {
     let flip = |bit| VALUES.map(|value| smallvec![(bit, value, !value)]).into();

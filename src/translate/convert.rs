@@ -8,8 +8,8 @@ use super::subnet::{Step, Subnet};
 use super::walk::Stage;
 use super::weaver::{Bit, VALUES};
 use super::wire::Wire;
-use crate::flat::Hazard;
-use crate::semantics::Type;
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::Type;
 
 pub fn translate(subnet: &mut Subnet<'_>, from: Type, to: Type) {
     let (here, next) = (subnet.here(), subnet.next());

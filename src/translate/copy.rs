@@ -6,9 +6,9 @@ use super::domain::Domain;
 use super::provenance::{PlaceRole, TransitionRole};
 use super::ranges::Block;
 use super::weaver::{Bit, VALUES, Weaver};
-use crate::flat::FlatProgram;
 use crate::net::{Arcs, PlaceId};
-use crate::semantics::VarId;
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::VarId;
 
 /// Control places before and after the copying of an input.
 #[derive(Clone, Copy)]

@@ -13,10 +13,10 @@ use super::subnet::{Step, Subnet};
 use super::walk::Stage;
 use super::weaver::{Bit, VALUES};
 use super::wire::{Wire, with};
-use crate::flat::{Hazard, Operand, Target};
 use crate::net::PlaceId;
-use crate::semantics::Type;
 use crate::translate::provenance::Register;
+use petril_lang::flat::{Hazard, Operand, Target};
+use petril_lang::semantics::Type;
 
 /// Division under construction.
 struct Division {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::semantics::{Type, VarId};
+use petril_lang::semantics::{Type, VarId};
 
 /// Set of values of a type, as patterns in ascending order of their numbers. Never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ impl Domain {
 #[cfg(test)]
 mod tests {
     use super::Domain;
-    use crate::semantics::Type;
+    use petril_lang::semantics::Type;
 
     #[test]
     fn ranges_are_joined_and_must_fit() {

@@ -5,8 +5,8 @@ use smallvec::smallvec;
 use super::subnet::Subnet;
 use super::weaver::{Bit, Changes, VALUES};
 use super::wire::{Wire, with};
-use crate::flat::{Element, Target};
-use crate::semantics::VarId;
+use petril_lang::flat::{Element, Target};
+use petril_lang::semantics::VarId;
 
 /// Elements that the index can select, each with the bits of the index that select it.
 fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Changes)> {

@@ -2,8 +2,8 @@
 
 use super::subnet::Subnet;
 use super::{add, bound, combine, compare, complement, convert, divide, jump, load, multiply, set_reset, shift, store};
-use crate::flat::{Function, Instruction, Operand};
-use crate::semantics::Type;
+use petril_lang::flat::{Function, Instruction, Operand};
+use petril_lang::semantics::Type;
 
 pub fn translate(subnet: &mut Subnet<'_>, instruction: Instruction) {
     match instruction {

@@ -2,7 +2,7 @@
 
 use super::subnet::Subnet;
 use super::weaver::VALUES;
-use crate::semantics::Condition;
+use petril_lang::semantics::Condition;
 
 pub fn translate(subnet: &mut Subnet<'_>, condition: Condition, target: usize) {
     let (here, target) = (subnet.here(), subnet.at_line(target));

@@ -1,8 +1,8 @@
 //! `LD x`, `LDN x`: the current result takes the operand's value, complemented for `LDN`.
 
 use super::subnet::{Step, Subnet};
-use crate::flat::Operand;
-use crate::semantics::Type;
+use petril_lang::flat::Operand;
+use petril_lang::semantics::Type;
 
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, operand: Operand) {
     let wires = subnet.wires(ty, negated, operand);

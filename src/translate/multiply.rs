@@ -11,10 +11,10 @@ use super::subnet::Subnet;
 use super::walk::Stage;
 use super::weaver::{Bit, Change, Changes, VALUES};
 use super::wire::Wire;
-use crate::flat::{Function, Hazard, Operand, Target};
 use crate::net::PlaceId;
-use crate::semantics::{Kind, Type};
 use crate::translate::provenance::Register;
+use petril_lang::flat::{Function, Hazard, Operand, Target};
+use petril_lang::semantics::{Kind, Type};
 
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, operand: Operand) {
     let wires = subnet.wires(ty, negated, operand);

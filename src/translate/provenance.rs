@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::flat::Hazard;
-use crate::semantics::VarId;
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::VarId;
 
 /// Part of a system net (seed paper, table 2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

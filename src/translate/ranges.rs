@@ -1,6 +1,6 @@
 //! Sets of numbers as binary decision diagrams over their bits, from the highest to the lowest.
 
-use crate::semantics::Type;
+use petril_lang::semantics::Type;
 
 /// Set of patterns of a number of bits: a node of the decision diagram. Equal sets are equal values, and so shared
 /// nodes.

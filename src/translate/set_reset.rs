@@ -5,7 +5,7 @@ use smallvec::smallvec;
 use super::element::targets;
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
-use crate::flat::Target;
+use petril_lang::flat::Target;
 
 pub fn translate(subnet: &mut Subnet<'_>, target: Target, value: bool) {
     let result = subnet.truth();

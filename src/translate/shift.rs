@@ -8,9 +8,9 @@ use super::subnet::{Step, Subnet};
 use super::walk::Stage;
 use super::weaver::{Bit, VALUES};
 use super::wire::Wire;
-use crate::flat::{Function, Operand, Target};
 use crate::net::PlaceId;
-use crate::semantics::Type;
+use petril_lang::flat::{Function, Operand, Target};
+use petril_lang::semantics::Type;
 
 /// Translates a shift. The operand may be of any type; complemented it has as many bits as the current result.
 pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, negated: bool, operand: Operand) {

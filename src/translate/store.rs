@@ -6,8 +6,8 @@ use super::element::targets;
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
 use super::wire::with;
-use crate::flat::Target;
-use crate::semantics::Type;
+use petril_lang::flat::Target;
+use petril_lang::semantics::Type;
 
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, target: Target) {
     let mut steps: Vec<Step> = Vec::new();

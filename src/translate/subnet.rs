@@ -6,9 +6,9 @@ use smallvec::{SmallVec, smallvec};
 
 use super::provenance::{PlaceRole, Register, TransitionRole};
 use super::weaver::{Bit, Change, Changes, Weaver};
-use crate::flat::Hazard;
 use crate::net::{Arcs, PlaceId};
-use crate::semantics::VarId;
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::VarId;
 
 /// Alternatives of a step: each moves control on if its bits have their old values.
 pub type Step = Vec<Changes>;

@@ -10,10 +10,10 @@ use super::plant::{Component, Plant};
 use super::provenance::{Part, PlaceRole, TransitionRole};
 use super::subnet::Subnet;
 use super::weaver::{Bit, Weaver, Woven};
-use crate::flat::FlatProgram;
 use crate::net::{Arcs, Net, PlaceId, TransitionId};
-use crate::rows::Rows;
-use crate::semantics::{Role, VarId};
+use petril_base::Rows;
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Role, VarId};
 
 /// Program in its plant, with the net of both.
 #[derive(Clone, Debug)]

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use smallvec::SmallVec;
 
 use super::provenance::{PlaceRole, Register, TransitionRole};
-use crate::flat::Variable;
 use crate::net::{Arcs, Builder, Net, PlaceId, TransitionId};
-use crate::semantics::VarId;
+use petril_lang::flat::Variable;
+use petril_lang::semantics::VarId;
 
 /// Values of a bit.
 pub const VALUES: [bool; 2] = [false, true];

@@ -5,8 +5,8 @@ use smallvec::smallvec;
 use super::element;
 use super::subnet::{Step, Subnet};
 use super::weaver::{Bit, Change, Changes, VALUES};
-use crate::flat::{Operand, Target};
-use crate::semantics::Type;
+use petril_lang::flat::{Operand, Target};
+use petril_lang::semantics::Type;
 
 /// Bit that is read, as alternatives: each is a value of the bit, with the bits that must have certain values for it.
 #[derive(Clone, Debug)]

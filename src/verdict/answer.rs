@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Independence, Outcome};
 use crate::logic::{Origin, Requirement, Tag};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// A requirement and its outcome.
 #[derive(Clone, Debug, Serialize, Deserialize)]

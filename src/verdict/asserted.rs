@@ -5,9 +5,9 @@ use super::views::ScanView;
 use super::{Answer, Note, Outcome, Trace, Witness};
 use crate::explore::{ScanRun, Seen, Stop, first_at_lines};
 use crate::logic::{Assertion, Bound, Moment};
-use crate::semantics::VarId;
 use crate::translate::PlaceRole;
 use crate::witness::{Disagreement, replay_lines, scan_trace_to};
+use petril_lang::semantics::VarId;
 
 /// The answers to assertions.
 pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopped: &mut dyn FnMut() -> bool) -> Vec<Answer> {

@@ -1,10 +1,10 @@
 //! Under which assumptions the verdicts are proofs, in words.
 
 use super::Options;
-use crate::flat::Hazard;
 use crate::logic::{Assumption, View};
-use crate::semantics::{Role, VarId};
 use crate::translate::System;
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::{Role, VarId};
 
 /// The assumptions about a system that is checked in this way.
 pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<String> {

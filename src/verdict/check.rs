@@ -19,13 +19,13 @@ use super::{
     Answer, Exploration, Outcome, Report, Verdict, Witness, admitted, asserted, every_line, hazards, scan_ends,
 };
 use crate::explore::{Admission, Budget, Graph, Markings, Progress, ScanSpace, explore, never_executed, watched};
-use crate::flat::Tolerated;
 use crate::logic::{
     Assertion, Assumed, Assumption, Bound, Dag, Demand, Evidence, FairnessAssumption, History, Labels, Node, NodeId,
     Quantifier, Requirement, View, evidence, label, label_until,
 };
 use crate::translate::System;
 use crate::witness::Disagreement;
+use petril_lang::flat::Tolerated;
 
 /// How to check.
 #[derive(Clone, Debug)]

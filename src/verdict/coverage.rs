@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::flat::{FlatProgram, Target};
 use crate::logic::Bound;
-use crate::semantics::{Role, VarId};
 use crate::translate::System;
+use petril_lang::flat::{FlatProgram, Target};
+use petril_lang::semantics::{Role, VarId};
 
 /// What of a program was modelled, executed, and asked about. All lines are modelled: what cannot be is an error before.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use super::{Note, Trace, Witness};
 use crate::explore::{Failure, Graph, ScanSpace, Stop};
-use crate::flat::Hazard;
-use crate::interpret::Fault;
 use crate::witness::{Disagreement, replay_scans, scan_trace};
+use petril_lang::flat::Hazard;
+use petril_lang::interpret::Fault;
 
 /// What was found of scans that fail in some way.
 pub enum Failing {

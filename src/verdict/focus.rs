@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::{Answer, Outcome, Trace, Witness};
-use crate::semantics::VarId;
 use crate::translate::System;
 use crate::witness::{Columns, Piece, fold};
+use petril_lang::semantics::VarId;
 
 /// The parts of a run that matter to its requirement, so that a form of the report may leave out others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -5,9 +5,9 @@ use super::failing::{Failing, failing_scan};
 use super::why::of_error;
 use super::{Answer, Outcome};
 use crate::explore::{Failure, Graph, ScanSpace};
-use crate::flat::{FlatProgram, Hazard, Tolerated};
 use crate::logic::{Bound, Quantifier};
 use crate::translate::{PlaceRole, System};
+use petril_lang::flat::{FlatProgram, Hazard, Tolerated};
 
 /// The checks that are made of a program.
 pub fn checked(program: &FlatProgram, tolerated: Tolerated) -> impl Iterator<Item = Hazard> {

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use crate::logic::{Assumption, Bound};
-use crate::semantics::Role;
 use crate::translate::System;
+use petril_lang::semantics::Role;
 
 /// On what a requirement that holds does not depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use crate::explore::{Graph, ScanSpace};
-use crate::flat::FlatProgram;
-use crate::semantics::{Role, VarId};
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Role, VarId};
 
 /// Something about all reachable states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

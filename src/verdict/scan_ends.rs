@@ -4,10 +4,10 @@ use super::failing::{Failing, failing_scan, what_is_missing};
 use super::why::of_error;
 use super::{Answer, Outcome};
 use crate::explore::{Failure, Graph, ScanSpace, Stop};
-use crate::flat::{FlatProgram, Instruction};
-use crate::interpret::{Fault, MAX_STEPS};
 use crate::logic::{Bound, Quantifier};
 use crate::translate::{PlaceRole, System};
+use petril_lang::flat::{FlatProgram, Instruction};
+use petril_lang::interpret::{Fault, MAX_STEPS};
 
 /// The check with its outcome.
 pub fn answer(outcome: Outcome) -> Answer {

@@ -209,10 +209,10 @@ fn notes(system: &System, dag: &Dag, evidence: &Evidence) -> Vec<Note> {
 mod tests {
     use super::*;
     use crate::explore::{Budget, explore};
-    use crate::flat::flatten;
-    use crate::source::Source;
     use crate::translate::Plant;
-    use crate::{semantics, syntax};
+    use petril_base::source::Source;
+    use petril_lang::flat::flatten;
+    use petril_lang::{semantics, syntax};
 
     /// A search that is wrong about fairness gets no verdict: the replay sees that the loop does not meet a constraint.
     #[test]

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::flat::FlatProgram;
-use crate::semantics::{Role, VarId};
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Role, VarId};
 
 /// Columns up to which a table is taken in at a glance, so that they stay in the order of the program.
 const FEW: usize = 8;

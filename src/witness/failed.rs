@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::scan_trace::{Scan, ScanTrace};
 use super::writes::Write;
-use crate::flat::{FlatProgram, Function, Hazard, Instruction, Operand, Target};
-use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
 use crate::translate::System;
+use petril_lang::flat::{FlatProgram, Function, Hazard, Instruction, Operand, Target};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 
 /// Values told in a sentence at most.
 const MOST: usize = 4;

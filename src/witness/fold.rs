@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::scan_trace::ScanTrace;
-use crate::flat::FlatProgram;
-use crate::semantics::{Role, VarId};
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::{Role, VarId};
 
 /// Scans that a fold hides at least.
 const LEAST: usize = 8;

@@ -6,10 +6,10 @@ use super::fold::Piece;
 use super::scan_trace::{Scan, ScanTrace};
 use super::story::story;
 use super::table::{Column, Table};
-use crate::flat::value_text;
-use crate::semantics::{Role, VarId};
-use crate::source::Source;
 use crate::translate::{System, TransitionRole};
+use petril_base::source::Source;
+use petril_lang::flat::value_text;
+use petril_lang::semantics::{Role, VarId};
 
 /// Values that move in a folded stretch of which the table tells at most.
 const MOST_MOVEMENTS: usize = 12;

@@ -2,7 +2,7 @@
 
 use crate::logic::{Bound, Past, Valuation};
 use crate::net::{Marking, PlaceId};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// The values of the variables at power-on and at the ends of the scans so far, as the net had them.
 #[derive(Clone, Debug)]

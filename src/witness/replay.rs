@@ -3,12 +3,12 @@
 use std::fmt;
 
 use crate::explore::ScanState;
-use crate::flat::Hazard;
-use crate::interpret::Machine;
 use crate::logic::{Bound, Valuation};
 use crate::net::{Marking, PlaceId, TransitionId};
-use crate::semantics::{Role, Type, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
+use petril_lang::flat::Hazard;
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, Type, VarId};
 
 /// Net, interpreter and search do not tell the same story. One of them is wrong, so there is no verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]

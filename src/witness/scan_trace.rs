@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 use super::recalled::Recalled;
 use super::replay::{Disagreement, Replay};
 use crate::explore::{Failure, ScanRun, ScanSpace, ScanState};
-use crate::flat::Hazard;
 use crate::logic::Bound;
 use crate::net::{Marking, TransitionId};
-use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System, TransitionRole};
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::{Role, VarId};
 
 /// A run as a list of scans.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,10 +4,10 @@
 use super::firing_trace::{FiringTrace, replay_firings};
 use super::replay::{Disagreement, Replay};
 use super::scan_trace::{Event, ScanTrace, play_scans};
-use crate::flat::{Hazard, Instruction, Target};
 use crate::net::TransitionId;
-use crate::semantics::{Type, VarId};
 use crate::translate::{System, TransitionRole};
+use petril_lang::flat::{Hazard, Instruction, Target};
+use petril_lang::semantics::{Type, VarId};
 
 /// An instruction that was executed, on the net and by the interpreter.
 #[derive(Clone, Debug, PartialEq, Eq)]

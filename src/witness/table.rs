@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::printable;
+use petril_base::printable;
 
 /// A column: its head, and the side its cells lean to.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! Who wrote a value last: the instruction, and the scan.
 
 use super::scan_trace::ScanTrace;
-use crate::flat::{Instruction, Target};
-use crate::interpret::Machine;
-use crate::semantics::VarId;
 use crate::translate::System;
+use petril_lang::flat::{Instruction, Target};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::VarId;
 
 /// A variable was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

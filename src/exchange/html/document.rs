@@ -10,10 +10,10 @@ use crate::exchange::checked::{Checked, runs, tags, why};
 use crate::exchange::stamp::Stamp;
 use crate::explore::Stop;
 use crate::logic::View;
-use crate::semantics::{Role, VarId};
-use crate::source::Source;
 use crate::translate::Part;
 use crate::verdict::{Answer, Outcome, Remark, Why};
+use petril_base::source::Source;
+use petril_lang::semantics::{Role, VarId};
 
 /// A longer text of a program is shown in part.
 const MAX_SOURCE: usize = 400_000;

@@ -17,7 +17,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::checked::Checked;
 use super::stamp::Stamp;
-use crate::printable;
+use petril_base::printable;
 
 /// The frame, with a name in double braces for each of its parts.
 const PAGE: &str = include_str!("page.html");

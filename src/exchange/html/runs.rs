@@ -8,12 +8,12 @@ use serde_json::{Map, Value, json};
 
 use super::nets::Nets;
 use crate::exchange::checked::{Checked, Purpose};
-use crate::flat::value_text;
 use crate::net::TransitionId;
-use crate::semantics::{Role, VarId};
 use crate::translate::{System, TransitionRole};
 use crate::verdict::{Answer, Focus, Trace, Witness};
 use crate::witness::{Executed, FiringTrace, Piece, ScanTrace, ToldScan, firing_story, story};
+use petril_lang::flat::value_text;
+use petril_lang::semantics::{Role, VarId};
 
 /// One run is not told whole if it takes more instructions.
 const MAX_INSTRUCTIONS: usize = 20_000;

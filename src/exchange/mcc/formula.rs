@@ -5,10 +5,10 @@
 use roxmltree::Node;
 
 use super::reader::Reader;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::{Comparison, Expression, Formula, Quantifier, Temporal};
-use crate::source::Span;
-use crate::xml::{Text, tag, tag_span};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_base::xml::{Text, tag, tag_span};
 
 /// A formula may be nested this deeply. Those of the contest have about twenty levels; the limit keeps all that walks them
 /// within its stack.

@@ -31,7 +31,7 @@ mod tests;
 pub use read::read;
 
 use crate::logic::Formula;
-use crate::source::Span;
+use petril_base::source::Span;
 
 /// A property of a net.
 #[derive(Clone, Debug)]

@@ -6,9 +6,9 @@ use roxmltree::Node;
 
 use super::reader::Reader;
 use super::{Place, Property, Query};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{Source, Span};
-use crate::xml::{self, Text, elements, tag, tag_span};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
+use petril_base::xml::{self, Text, elements, tag, tag_span};
 
 const EXAMPLE: &str = "a property is like `<property><id>…</id><formula>…</formula></property>`";
 

@@ -2,9 +2,9 @@
 
 use roxmltree::Node;
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::Span;
-use crate::xml::{Text, content, elements, tag, tag_span};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_base::xml::{Text, content, elements, tag, tag_span};
 
 /// Reads elements, and keeps what is wrong with them.
 #[derive(Default)]

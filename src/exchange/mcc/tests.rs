@@ -3,7 +3,7 @@
 use super::{Property, Query, read};
 use crate::logic::{Nodes, bind_in_net, parse_formula};
 use crate::net::{Arcs, Builder, Net};
-use crate::source::Source;
+use petril_base::source::Source;
 
 /// A property set around properties, which begin in line 2.
 fn set(properties: &str) -> String {
@@ -25,7 +25,7 @@ fn properties(text: &str) -> Vec<Property> {
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.xml", text);
     let (_, errors) = read(&source);
-    let line = |d: &crate::diagnostic::Diagnostic| {
+    let line = |d: &petril_base::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
     };

@@ -3,10 +3,10 @@
 use super::ids::Ids;
 use super::label::{number, required, text};
 use super::units::Section;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::Draft;
-use crate::source::{ShortSpan, Source, Span};
-use crate::xml::{Element, Event, Piece, Stream};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{ShortSpan, Source, Span};
+use petril_base::xml::{Element, Event, Piece, Stream};
 
 /// Places or transitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,9 +4,9 @@ use std::hash::{BuildHasher, RandomState};
 
 use hashbrown::HashTable;
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{ShortSpan, Source, Span};
-use crate::xml::{Piece, attribute_at};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{ShortSpan, Source, Span};
+use petril_base::xml::{Piece, attribute_at};
 
 /// The ids of a document. An id is kept as where it stands: there may be millions.
 pub struct Ids<'s> {

@@ -1,9 +1,9 @@
 //! Attributes and labels: the texts of a PNML element, each with where it stands.
 
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::MAX_COUNT;
-use crate::source::Span;
-use crate::xml::{Element, Event, Piece, Stream};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_base::xml::{Element, Event, Piece, Stream};
 
 /// An attribute that must be there.
 pub fn required<'s>(element: &Element<'s>, name: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<Piece<'s>> {

@@ -5,11 +5,11 @@ use std::collections::HashSet;
 
 use super::contents::{Contents, Item, Kind};
 use super::references::References;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::{Direction, Draft, DraftPlace, DraftTransition, Trouble, file_stem};
 use crate::net::Located;
-use crate::source::{Source, Span};
-use crate::xml::{Element, Event, Piece, Stream, attribute_at};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
+use petril_base::xml::{Element, Event, Piece, Stream, attribute_at};
 
 /// The type of place/transition nets.
 pub(super) const NET_TYPE: &str = "http://www.pnml.org/version-2009/grammar/ptnet";

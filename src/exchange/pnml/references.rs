@@ -1,9 +1,9 @@
 //! Ids to nodes: reference nodes stand for what is at the end of their chain.
 
 use super::contents::{Contents, Item, Kind};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{Source, Span};
-use crate::xml::attribute_at;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
+use petril_base::xml::attribute_at;
 
 /// Whom an id means.
 pub struct References<'a, 's> {

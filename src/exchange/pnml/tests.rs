@@ -2,7 +2,7 @@
 
 use super::{read, read_safe};
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
-use crate::source::Source;
+use petril_base::source::Source;
 
 /// A document around what stands on its page, which begins in line 2.
 fn document(page: &str) -> String {
@@ -19,7 +19,7 @@ fn read_page(page: &str) -> Located {
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.pnml", text);
     let errors = read_safe(&source).expect_err(text);
-    let line = |d: &crate::diagnostic::Diagnostic| {
+    let line = |d: &petril_base::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
     };

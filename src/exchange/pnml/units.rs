@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 
 use super::contents::{Contents, Kind};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::Draft;
 use crate::net::{PlaceId, Unit, Units};
-use crate::source::Span;
-use crate::xml::{Element, Event, Piece, Stream};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_base::xml::{Element, Event, Piece, Stream};
 
 /// A section as it stands in the file.
 pub struct Section<'s> {

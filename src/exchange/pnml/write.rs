@@ -14,8 +14,8 @@ use crate::draw::{Point, Positions};
 use crate::exchange::notes::{Note, Notes};
 use crate::exchange::text;
 use crate::net::{Net, PlaceId, Units};
-use crate::printable;
-use crate::xml::written;
+use petril_base::printable;
+use petril_base::xml::written;
 
 type Xml<'o> = Writer<&'o mut dyn io::Write>;
 

@@ -17,7 +17,7 @@ pub fn document(sheets: &Sheets<'_>) -> Value {
     let functions = sheets.plans.iter().enumerate().map(|(position, plan)| function(sheets, position, plan));
     let mut document = json!({
         "system": specification.title,
-        "files": sheets.sources.iter().map(crate::source::Source::name).collect::<Vec<_>>(),
+        "files": sheets.sources.iter().map(petril_base::source::Source::name).collect::<Vec<_>>(),
         "tests_from": sheets.origin,
         "tests": sheets.tests(),
         "functions": functions.collect::<Vec<_>>(),

@@ -9,8 +9,8 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 use super::told::{brief, reasons};
 use super::{Ran, Sheets};
 use crate::exchange::{Stamp, text};
-use crate::printable::line;
 use crate::sif::{Plan, PlanRun, Test, TestRun};
+use petril_base::printable::line;
 
 type Xml<'o> = Writer<&'o mut Vec<u8>>;
 
@@ -65,7 +65,7 @@ fn suite(
 }
 
 fn properties(xml: &mut Xml<'_>, sheets: &Sheets<'_>, ran: &Ran<'_>, plan: &Plan) -> io::Result<()> {
-    let files: Vec<&str> = sheets.sources.iter().map(crate::source::Source::name).collect();
+    let files: Vec<&str> = sheets.sources.iter().map(petril_base::source::Source::name).collect();
     let said = [
         ("petril", env!("PETRIL_VERSION").to_owned()),
         ("specification", files.join(", ")),

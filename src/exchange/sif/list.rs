@@ -8,7 +8,7 @@ use std::io::Cursor;
 use calamine::{Data, Reader as _, Xlsx};
 
 use super::plan_csv::separator;
-use crate::syntax::standard_address;
+use petril_lang::syntax::standard_address;
 
 /// What columns are called, in small letters.
 const HEADS: [(&str, &[&str]); 8] = [

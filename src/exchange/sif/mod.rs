@@ -10,9 +10,9 @@ pub mod plan_csv;
 pub mod results_csv;
 
 use super::Provenance;
-use crate::flat::FlatProgram;
 use crate::sif::{Excluded, Hunt, Plan, PlanRun, Runner, Specification, Start};
-use crate::source::Source;
+use petril_base::source::Source;
+use petril_lang::flat::FlatProgram;
 
 /// Tests of some functions, with all there is to tell of them.
 #[derive(Clone, Copy, Debug)]

@@ -7,11 +7,11 @@
 use fixedbitset::FixedBitSet;
 
 use super::Sheets;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::table::{self, uncovered};
 use crate::sif::{Coverage, Criterion, Kind, Plan, SignalId, Specification, Test};
-use crate::source::{Source, Span};
-use crate::syntax::ast::key;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
+use petril_lang::syntax::ast::key;
 
 /// The columns that are no signals.
 const COLUMNS: [&str; 4] = ["test", "function", "criterion", "purpose"];

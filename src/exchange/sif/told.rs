@@ -2,9 +2,9 @@
 
 use super::{Ran, Sheets};
 use crate::explore::Failure;
-use crate::flat::Hazard;
-use crate::interpret::Fault;
 use crate::sif::{Ending, Plan, SignalId, Test, TestRun};
+use petril_lang::flat::Hazard;
+use petril_lang::interpret::Fault;
 
 /// TRUE or FALSE.
 pub fn truth(value: bool) -> &'static str {

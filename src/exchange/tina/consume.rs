@@ -4,9 +4,9 @@ use pest::iterators::Pair;
 
 use super::expected;
 use super::read::Rule;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::{Direction, Draft, MAX_COUNT};
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
 
 /// A name without its quoting, and where it stands.
 #[derive(Default)]

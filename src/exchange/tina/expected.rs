@@ -5,8 +5,8 @@ use pest::error::Error;
 
 use super::read::{Rule, TinaParser};
 use super::write;
-use crate::diagnostic::{self, Code, Diagnostic};
-use crate::source::Span;
+use petril_base::diagnostic::{self, Code, Diagnostic};
+use petril_base::source::Span;
 
 /// The words a line can begin with.
 const WORDS: [&str; 3] = ["net", "pl", "tr"];

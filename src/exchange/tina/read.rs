@@ -8,10 +8,10 @@ use pest_derive::Parser;
 
 use super::consume::{self, Declaration, Name};
 use super::expected;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::exchange::draft::{Draft, DraftPlace, DraftTransition, Trouble, file_stem};
 use crate::net::Located;
-use crate::source::{Source, Span};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
 
 #[derive(Parser)]
 #[grammar = "../grammar/tina.pest"]

@@ -2,13 +2,13 @@
 
 use super::{read, read_safe};
 use crate::net::{Arcs, PlaceId, TransitionId};
-use crate::source::Source;
+use petril_base::source::Source;
 
 /// Everything that is wrong with a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.net", text);
     let errors = read_safe(&source).expect_err(text);
-    let line = |d: &crate::diagnostic::Diagnostic| {
+    let line = |d: &petril_base::diagnostic::Diagnostic| {
         let (line, column) = source.line_column(d.span().start);
         format!("{line}:{column} {} {}", d.code, d.message)
     };

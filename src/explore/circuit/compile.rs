@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use super::gates::{Network, Wire};
 use super::numbers::{self, complement, constant, resized};
 use super::products;
-use crate::flat::{Condition, Element, FlatProgram, Function, Hazard, Instruction, Operand, Target, Tolerated};
-use crate::semantics::{Type, VarId};
+use petril_lang::flat::{Condition, Element, FlatProgram, Function, Hazard, Instruction, Operand, Target, Tolerated};
+use petril_lang::semantics::{Type, VarId};
 
 /// What a scan computes from the bits of all variables.
 pub(super) struct Compiled {

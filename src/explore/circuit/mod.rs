@@ -20,9 +20,9 @@ use fixedbitset::FixedBitSet;
 
 use super::layout::Field;
 use super::space::Failure;
-use crate::flat::{FlatProgram, Hazard, Tolerated};
-use crate::semantics::VarId;
 use compile::{Limits, compile};
+use petril_lang::flat::{FlatProgram, Hazard, Tolerated};
+use petril_lang::semantics::VarId;
 use transpose::transpose;
 
 /// A scan of packed states.

@@ -1,8 +1,8 @@
 //! Gates for numbers: rows of wires, the least bit first.
 
 use super::gates::{Network, Wire};
-use crate::flat::Function;
-use crate::semantics::{Kind, Type};
+use petril_lang::flat::Function;
+use petril_lang::semantics::{Kind, Type};
 
 /// The bits of a pattern.
 pub(super) fn constant(pattern: u64, width: usize) -> Vec<Wire> {

@@ -2,8 +2,8 @@
 
 use super::gates::{Network, Wire};
 use super::numbers::{add, complement, constant, resized};
-use crate::flat::Function;
-use crate::semantics::{Kind, Type};
+use petril_lang::flat::Function;
+use petril_lang::semantics::{Kind, Type};
 
 /// The product of two numbers modulo 2^width, and whether it is none of the type.
 pub(super) fn product(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire]) -> (Vec<Wire>, Wire) {

@@ -2,8 +2,8 @@
 
 use super::compile::{Limits, NoGates, compile};
 use super::gates::{Gate, Wire};
-use crate::flat::{FlatProgram, Hazard, Target, Tolerated};
-use crate::semantics::{Role, VarId};
+use petril_lang::flat::{FlatProgram, Hazard, Target, Tolerated};
+use petril_lang::semantics::{Role, VarId};
 
 /// What a scan makes of the bits it begins with.
 ///

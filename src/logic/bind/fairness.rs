@@ -1,14 +1,14 @@
 //! Fairness assumptions: texts to formulas about one state.
 
 use super::{View, bind};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::bound::Bound;
 use crate::logic::fairness::{Constraint, FairnessAssumption, FairnessText, Recurrence};
 use crate::logic::formula::Formula;
 use crate::net::TransitionId;
-use crate::semantics::{Role, VarId};
-use crate::source::Span;
 use crate::translate::{PlaceRole, System};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_lang::semantics::{Role, VarId};
 
 /// Binds the names of a fairness assumption. What it says of the plant is about the net of this very system.
 ///

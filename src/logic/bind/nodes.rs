@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::{Name, ScanTime, Spot, Vocabulary};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::bound::{Bound, Term};
 use crate::net::{Net, PlaceId, TransitionId};
-use crate::semantics::Role;
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_lang::semantics::Role;
 
 /// What the nodes of a net are called in formulas: by their names, or by ids that the file of the net gives them.
 #[derive(Clone, Debug)]

@@ -3,12 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Name, ScanTime, Spot, Vocabulary};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::bound::{Bound, Term};
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::{Kind, Role, VarId};
-use crate::source::Span;
 use crate::translate::{PlaceRole, System};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_lang::semantics::{Kind, Role, VarId};
 
 /// What a state is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use crate::logic::bound::Bound;
 use crate::logic::formula::Formula;
-use crate::source::Span;
+use petril_base::source::Span;
 
 /// A line about which runs count, before its names mean anything.
 #[derive(Clone, Debug)]

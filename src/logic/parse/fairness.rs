@@ -4,9 +4,9 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::{RequirementParser, Rule, checked_formula, diagnostic, name_of, one_line, span};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::fairness::{FairnessText, Recurrence};
-use crate::source::{Source, Span};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
 
 /// How a line is written.
 pub(super) const LIKE_LINE: &str = "write it like `fair released \"what it says\": again and again !start;`, `fair: if again \

@@ -10,10 +10,10 @@ use super::{
     DomainText, FairnessText, Formula, Origin, Requirement, RequirementParser, Rule, Tag, checked_formula, constant,
     diagnostic, missing, name_of, one_line, part, patterns, span,
 };
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::literal;
-use crate::source::{Source, Span};
-use crate::syntax::ast::key;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::{Source, Span};
+use petril_lang::syntax::ast::key;
 
 /// What a requirement file says.
 #[derive(Clone, Debug, Default)]

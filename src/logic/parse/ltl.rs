@@ -7,10 +7,10 @@ use pest::pratt_parser::{Assoc, Op, PrattParser};
 
 use super::priorities::{comparisons, connectives};
 use super::{Rule, formula, hole, joined, missing, part, primary, span, unambiguous};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::formula::{Expression, Formula, Past, Quantifier, Temporal};
 use crate::logic::ltl::Path;
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
 
 /// A formula about one path and where it stands.
 struct Part {

@@ -5,9 +5,9 @@
 use pest::iterators::Pair;
 
 use super::{Rule, checked_formula, duration, one_line, part, span};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::logic::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Quantifier, Temporal};
-use crate::source::Span;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
 
 /// What a requirement asks for.
 #[derive(Clone, Debug)]

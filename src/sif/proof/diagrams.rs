@@ -183,11 +183,11 @@ impl<'a> Opinion<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flat::{Tolerated, flatten};
-    use crate::semantics;
     use crate::sif::Specification;
-    use crate::source::Source;
-    use crate::syntax;
+    use petril_base::source::Source;
+    use petril_lang::flat::{Tolerated, flatten};
+    use petril_lang::semantics;
+    use petril_lang::syntax;
 
     /// The opinion on each claim about a program with inputs a, b, c and outputs y, z.
     fn opinions(text: &str, body: &str, tolerated: Tolerated) -> Vec<Option<bool>> {

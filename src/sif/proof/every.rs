@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::run::{Failure, Given, Run};
 use super::subject::Subject;
-use crate::semantics::Role;
 use crate::sif::Stop;
+use petril_lang::semantics::Role;
 
 /// Bits of inputs, at most.
 const MAX_BITS: u32 = 16;

@@ -2,10 +2,10 @@
 //! written. It shares nothing with the gates and the solver, and what they find is shown only if it is so here.
 
 use super::subject::Subject;
-use crate::flat::Hazard;
-use crate::interpret::{Fault, Machine};
-use crate::semantics::VarId;
 use crate::sif::{Kind, SignalId};
+use petril_lang::flat::Hazard;
+use petril_lang::interpret::{Fault, Machine};
+use petril_lang::semantics::VarId;
 
 /// What a scan reads.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::subject::Subject;
 use crate::explore::ScanGates;
-use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 
 /// Runs, computed side by side.
 const RUNS: usize = 64;

@@ -6,9 +6,9 @@ use super::disagreement;
 use super::run::{Failure, Given, Scan, run};
 use super::subject::Subject;
 use crate::explore::NoGates;
-use crate::flat::Hazard;
-use crate::semantics::Role;
 use crate::sif::{Kind, Scope};
+use petril_lang::flat::Hazard;
+use petril_lang::semantics::Role;
 
 /// The longest runs whose scans are simplified one by one.
 const MAX_SCANS: usize = 32;

@@ -2,10 +2,10 @@
 
 use fixedbitset::FixedBitSet;
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::{FlatProgram, Tolerated};
-use crate::semantics::VarId;
 use crate::sif::{Binder, Formula, Kind, Located, Scope, SignalId, Specification};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_lang::flat::{FlatProgram, Tolerated};
+use petril_lang::semantics::VarId;
 
 /// A specification, a program, and what is claimed of both.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use fixedbitset::FixedBitSet;
 use super::run::Given;
 use super::subject::{Form, Subject};
 use crate::explore::{Gate, ScanGates, Wire};
-use crate::semantics::Role;
 use crate::sif::{Kind, Literal, Solver};
+use petril_lang::semantics::Role;
 
 /// What has to be known of the gates of a scan.
 pub(super) struct Network<'a> {

@@ -7,8 +7,8 @@ use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::Resolver;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::sif::{Kind, SignalId};
+use petril_base::diagnostic::{Code, Diagnostic};
 
 impl Resolver<'_> {
     /// Puts definitions behind what they use; a value that is defined by way of itself is an error.

@@ -4,9 +4,9 @@ use rayon::prelude::*;
 
 use super::Runner;
 use super::mutants::Mutant;
-use crate::flat::{FlatProgram, Target};
-use crate::semantics::VarId;
 use crate::sif::Plan;
+use petril_lang::flat::{FlatProgram, Target};
+use petril_lang::semantics::VarId;
 
 /// What became of a program with a fault.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,10 +9,10 @@ use fixedbitset::FixedBitSet;
 use super::binding::{Binder, Located};
 use super::{Kind, Plan, SignalId, Specification, Test};
 use crate::explore::Failure;
-use crate::flat::{FlatProgram, Tolerated};
-use crate::interpret::Machine;
-use crate::semantics::{Role, VarId};
 use model::Model;
+use petril_lang::flat::{FlatProgram, Tolerated};
+use petril_lang::interpret::Machine;
+use petril_lang::semantics::{Role, VarId};
 
 pub use hunt::{Decide, Fate, Hunt, hunt};
 pub use mutants::{Mutant, mutants};

@@ -1,8 +1,8 @@
 //! Programs with one fault each: what people who write Instruction List mistype, forget and mix up.
 
-use crate::flat::{Condition, FlatProgram, Function, Instruction, Operand, Target};
-use crate::semantics::{Role, Type, VarId};
-use crate::source::Source;
+use petril_base::source::Source;
+use petril_lang::flat::{Condition, FlatProgram, Function, Instruction, Operand, Target};
+use petril_lang::semantics::{Role, Type, VarId};
 
 /// If there are more inputs than this, an operand is only mixed up with those declared next to it.
 const MAX_INPUTS: usize = 16;

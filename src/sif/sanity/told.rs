@@ -3,7 +3,7 @@
 use super::super::formula::SignalId;
 use super::super::specification::Specification;
 use super::finding::{Doubt, Example, Finding};
-use crate::diagnostic::{Code, Diagnostic};
+use petril_base::diagnostic::{Code, Diagnostic};
 
 /// So many names are said before the rest is only counted.
 const NAMED: usize = 12;

@@ -1,9 +1,9 @@
 //! Device of the plant: a connected net, its markings, and its nodes in the system net.
 
 use crate::net::{Arcs, PlaceId};
-use crate::semantics::VarId;
 use crate::translate::provenance::{PlaceRole, TransitionRole};
 use crate::translate::weaver::Weaver;
+use petril_lang::semantics::VarId;
 
 /// Connected component of a plant net.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::read::Device;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::net::{Located, PlaceId};
+use petril_base::diagnostic::{Code, Diagnostic};
 
 /// Warnings about the devices of a net, in the order of its text.
 pub fn warnings(file: &Located, devices: &[Device]) -> Vec<Diagnostic> {

@@ -4,10 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::component::{Component, LocalMarking, Move};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::FlatProgram;
 use crate::net::{Located, PlaceId};
-use crate::semantics::VarId;
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::VarId;
 
 /// Maximum number of markings of a device. Real ones have tens; the limit is for nets that are not devices.
 const MAX_MARKINGS: usize = 1 << 16;
@@ -134,7 +134,7 @@ fn ambiguous(
     component: &Component,
     problem: Ambiguity,
     program: &FlatProgram,
-    span: &dyn Fn(usize) -> crate::source::Span,
+    span: &dyn Fn(usize) -> petril_base::source::Span,
     history: &str,
 ) -> Box<Diagnostic> {
     let name = |input: VarId| &program.variable(input).name;

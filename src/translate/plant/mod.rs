@@ -13,10 +13,10 @@ mod read;
 
 pub use component::{Component, LocalMarking, Move, PlantPlace, PlantTransition};
 
-use crate::diagnostic::Diagnostic;
-use crate::flat::FlatProgram;
 use crate::net::Located;
-use crate::semantics::VarId;
+use petril_base::diagnostic::Diagnostic;
+use petril_lang::flat::FlatProgram;
+use petril_lang::semantics::VarId;
 
 /// Devices around a program.
 #[derive(Clone, Debug, Default)]

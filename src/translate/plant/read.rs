@@ -6,12 +6,12 @@ use petgraph::unionfind::UnionFind;
 
 use super::component::{Component, PlantPlace, PlantTransition};
 use super::{Plant, markings};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::flat::{FlatProgram, Variable};
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
-use crate::semantics::{Role, VarId};
-use crate::source::Span;
 use crate::translate::valuation::{self, Assignment, Value};
+use petril_base::diagnostic::{Code, Diagnostic};
+use petril_base::source::Span;
+use petril_lang::flat::{FlatProgram, Variable};
+use petril_lang::semantics::{Role, VarId};
 
 /// Meaning of a place of the net for the program.
 enum Meaning {

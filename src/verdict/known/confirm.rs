@@ -1,10 +1,10 @@
 //! Outcomes that come from elsewhere: their runs are replayed before anybody is shown them.
 
 use crate::logic::{Bound, Dag, Node, along};
-use crate::semantics::VarId;
 use crate::translate::System;
 use crate::verdict::{Outcome, Remark, Trace, Why, Witness};
 use crate::witness::{FiringTrace, Holds, ScanTrace, replay_firings, replay_scans};
+use petril_lang::semantics::VarId;
 
 /// Whether everything an outcome speaks of exists, its runs are runs of the system, and one that is said to break the formula does.
 pub fn is_confirmed(system: &System, formula: Option<&Bound>, outcome: &Outcome) -> bool {

@@ -8,9 +8,9 @@ use std::fmt::{self, Write};
 use blake3::Hasher;
 
 use crate::logic::Demand;
-use crate::source::Span;
 use crate::translate::System;
 use crate::verdict::Options;
+use petril_base::source::Span;
 
 /// The fingerprint of a system that is checked in this way, in hexadecimal digits. It is the same only for programs with the same
 /// flat code and the same variables, plants, domains of inputs, assumptions, assertions, and limits of the search. It does not

@@ -9,7 +9,7 @@ use super::condition::Condition;
 use crate::explore::engine::{Exploration, View};
 use crate::logic::{Bound, Dag, Node, Valuation};
 use crate::net::{PlaceId, TransitionId};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// Some formulas about one state, each with the states where it holds.
 pub(super) struct Atoms<'d> {

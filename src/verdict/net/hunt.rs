@@ -12,7 +12,7 @@ use crate::explore::engine::{Exploration, Model, Options, View, Wanted};
 use crate::explore::{Progress, Stop};
 use crate::logic::{Bound, Quantifier, Valuation};
 use crate::net::{Net, PlaceId, Tokens, TransitionId};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// What is looked for in each state.
 pub(super) enum Hunt<'q> {

@@ -4,7 +4,7 @@ use super::Reply;
 use crate::explore::engine::Exploration;
 use crate::logic::Valuation;
 use crate::net::{Net, PlaceId, Tokens, TransitionId};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// The reply where a replay contradicts the search.
 pub(super) fn refuted(what: &str) -> Reply {

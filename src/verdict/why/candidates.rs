@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 
 use super::Broken;
 use crate::explore::{Position, ScanSpace};
-use crate::flat::{Instruction, Operand};
-use crate::semantics::{Type, VarId};
 use crate::verdict::Change;
 use crate::verdict::coverage::read;
 use crate::witness::ScanTrace;
+use petril_lang::flat::{Instruction, Operand};
+use petril_lang::semantics::{Type, VarId};
 
 /// Values of one input, or settings of one device, that are all tried.
 const ALL: usize = 32;

@@ -1,7 +1,7 @@
 //! On what the value of a formula about one state rests.
 
 use crate::logic::{Bound, Comparison, Past, Term};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// Something on which the value of a formula rests.
 #[derive(Clone, Debug, PartialEq, Eq)]

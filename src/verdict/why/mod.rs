@@ -15,8 +15,8 @@ use super::views::SystemView;
 use super::{Trace, Why, Witness, Writer};
 use crate::explore::{Graph, ScanSpace};
 use crate::logic::{Bound, Dag, Evidence, Labels, NodeId};
-use crate::semantics::{Role, VarId};
 use crate::witness::{ScanTrace, last_writes};
+use petril_lang::semantics::{Role, VarId};
 
 /// A requirement that is broken, and the run that shows it.
 #[derive(Clone, Copy)]

@@ -7,10 +7,10 @@ use super::candidates::{Candidates, Slot, candidates};
 use super::rerun::{Again, Rerun};
 use crate::explore::Position;
 use crate::logic::{Bound, Node, Quantifier, along};
-use crate::semantics::VarId;
 use crate::verdict::views::{ScanStates, SystemView};
 use crate::verdict::{Change, Repair};
 use crate::witness::{Disagreement, ScanTrace};
+use petril_lang::semantics::VarId;
 
 /// More inputs than these tell nobody anything.
 const MOST: usize = 4;

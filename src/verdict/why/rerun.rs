@@ -4,10 +4,10 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use crate::explore::Position;
-use crate::semantics::VarId;
 use crate::verdict::Change;
 use crate::verdict::views::ScanStates;
 use crate::witness::ScanTrace;
+use petril_lang::semantics::VarId;
 
 /// Rounds of a loop after which nobody waits any longer for it to close.
 const ROUNDS: usize = 64;

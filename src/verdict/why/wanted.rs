@@ -4,7 +4,7 @@
 use super::Broken;
 use super::decisive::{Literal, decisive};
 use crate::logic::{Bound, Dag, Past, Quantifier, Term, along};
-use crate::semantics::VarId;
+use petril_lang::semantics::VarId;
 
 /// What is told at most: sentences, and values in one of them.
 const MOST: usize = 4;

@@ -7,7 +7,7 @@ use crate::exchange::Provenance;
 use crate::exchange::sif::told::made_by;
 use crate::exchange::sif::{Ran, Sheets};
 use crate::sif::{Criterion, Start};
-use crate::source::Source;
+use petril_base::source::Source;
 
 /// The cover.
 pub fn cover(sheets: &Sheets<'_>, title: &str) -> String {

@@ -2,7 +2,7 @@
 
 use quick_xml::escape::escape;
 
-use crate::printable;
+use petril_base::printable;
 
 /// A text on one line, with nothing in it that could be read as markup.
 pub fn escaped(text: &str) -> String {
