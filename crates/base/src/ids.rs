@@ -1,16 +1,16 @@
-//! Ids of what a state can be asked about: variables of flat code, places and transitions of a net.
+//! Ids of the parts of a state: variables of flat code, places and transitions of a net.
 
 use serde::{Deserialize, Serialize};
 
-/// A variable of flat code, as a position in the program's list.
+/// Variable of flat code, as a position in the program's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct VarId(pub usize);
 
-/// A place, as a position in its net.
+/// Place, as a position in its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaceId(u32);
 
-/// A transition, as a position in its net.
+/// Transition, as a position in its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct TransitionId(u32);
 

@@ -1,4 +1,4 @@
-//! Ground that all of Petril stands on: texts with positions, diagnostics as data, XML, ids, and the elementary data types.
+//! Foundation of all crates: texts with positions, diagnostics as data, XML, ids, and the elementary data types.
 
 pub mod diagnostic;
 mod ids;

@@ -1,14 +1,15 @@
-//! Text of others, made fit to be printed: nothing in it can begin a line, move a cursor, change a colour, hide or reorder.
+//! Text from outside, made safe to print: nothing in it can begin a line, move a cursor, change a colour, hide or
+//! reorder.
 //!
-//! Names, sentences and file names come from files that anybody may have written. Everything that people read goes through
-//! [`line()`] or [`lines()`]; each format adds its own escapes. What programs read back keeps every character, escaped as its
+//! Names, sentences and file names come from files that anybody may have written. All text for people goes through
+//! [`line()`] or [`lines()`]; each format adds its own escapes. Text for programs keeps every character, escaped as its
 //! format says ([`json()`]).
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Whether a character shows as itself, where it stands: no control character, none that changes the direction of text
-/// (Boucher and Anderson, *Trojan Source*, 2021), is invisible, ends a line, or is none at all.
+/// Whether a character shows as itself, where it stands: not a control character, a change of the direction of text
+/// (Boucher and Anderson, *Trojan Source*, 2021), an invisible character, a line end, for private use or unassigned.
 #[must_use]
 pub fn is_printable(c: char) -> bool {
     !c.is_control()
@@ -38,13 +39,13 @@ pub fn is_printable(c: char) -> bool {
         )
 }
 
-/// A text on one line: a tab becomes a blank, any other character that is not printable its number, like `\u{1b}`.
+/// Text on one line: a tab becomes a blank, any other character that is not printable its number, like `\u{1b}`.
 #[must_use]
 pub fn line(text: &str) -> String {
     escaped(text, |_| false).into_owned()
 }
 
-/// A text on its own lines: line feeds and tabs stay, every other character that is not printable becomes its number.
+/// Text on its own lines: line feeds and tabs stay, every other character that is not printable becomes its number.
 #[must_use]
 pub fn lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| matches!(c, '\n' | '\t'))
@@ -67,8 +68,8 @@ fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A JSON document in ASCII escapes where a character is not printable (RFC 8259, section 7): whoever reads it gets the same
-/// strings, whoever looks at it no surprise. Line feeds stand between values only, and stay.
+/// JSON document in which characters that are not printable are escaped in ASCII (RFC 8259, section 7): parsing it
+/// gives the same strings. Line feeds stand between values only, and stay.
 #[must_use]
 pub fn json(document: &str) -> Cow<'_, str> {
     if document.chars().all(|c| is_printable(c) || c == '\n') {

@@ -1,8 +1,8 @@
-//! Lists of one kind, one after another in one piece of memory: compressed rows.
+//! Compressed rows: many lists in one allocation.
 
 use std::ops::Index;
 
-/// Lists, numbered from 0. `items[starts[i]..starts[i + 1]]` is list i.
+/// Lists, numbered from 0. Invariant: `items[starts[i]..starts[i + 1]]` is list i.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rows<T> {
     starts: Vec<usize>,
@@ -10,7 +10,8 @@ pub struct Rows<T> {
 }
 
 impl<T: Copy> Rows<T> {
-    /// The lists that hold, for each key below `keys`, the items paired with it, in the order of the pairs.
+    /// Groups pairs by key: list `k`, for each key below `keys`, holds the items paired with it, in the order of the
+    /// pairs.
     pub fn group(keys: usize, pairs: impl Iterator<Item = (usize, T)> + Clone) -> Self {
         let mut starts = vec![0; keys + 1];
         pairs.clone().for_each(|(key, _)| starts[key + 1] += 1);

@@ -3,12 +3,12 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// A piece of a source text: byte offsets, the end exclusive.
+/// Span of a source text in byte offsets, the end exclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     /// Offset of the first byte.
     pub start: usize,
-    /// Offset behind the last byte.
+    /// Offset after the last byte.
     pub end: usize,
 }
 
@@ -32,7 +32,7 @@ impl Span {
     }
 }
 
-/// A span in half the memory, where there are millions. Only for texts of less than 4 GiB.
+/// Span in half the memory, for documents that have millions; only for texts of less than 4 GiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ShortSpan {
     start: u32,
@@ -40,7 +40,7 @@ pub struct ShortSpan {
 }
 
 impl ShortSpan {
-    /// The length of the longest text that has such spans.
+    /// Length in bytes of the longest text that such spans can address.
     pub const MAX_TEXT: usize = u32::MAX as usize;
 }
 
@@ -56,23 +56,23 @@ impl From<ShortSpan> for Span {
     }
 }
 
-/// A text, the name it goes by in messages, and where its lines start.
+/// Source text with its name in messages and the starts of its lines.
 ///
-/// Line starts are computed once, so that asking for a line and column is a binary search.
+/// Line starts are computed once, so that finding a line and column is a binary search.
 #[derive(Clone, Debug)]
 pub struct Source {
     name: String,
     text: String,
     line_starts: Vec<usize>,
-    /// The characters before each [`BLOCK`] of bytes, once they have been asked for.
+    /// Number of characters before each [`BLOCK`] of bytes, counted on first use.
     characters: OnceLock<Vec<usize>>,
     is_utf8: bool,
 }
 
-/// Bytes at the end of which characters are counted once: a line may be as long as a file.
+/// Bytes in a block of the character counts: a line may be as long as a file.
 const BLOCK: usize = 1024;
 
-/// The bytes are no text: a NUL byte stands at this offset.
+/// Error for bytes that are not text: they hold a NUL byte.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotText {
     /// Offset of the NUL byte.
@@ -96,7 +96,7 @@ impl Source {
     /// of old Macintosh files, becomes a line feed.
     ///
     /// # Errors
-    /// [`NotText`] if the bytes hold a NUL, so are no text in either encoding.
+    /// [`NotText`] if the bytes hold a NUL, so are not text in either encoding.
     pub fn decode(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Result<Self, NotText> {
         let mut bytes = bytes.into();
         if let Some(offset) = bytes.iter().position(|&b| b == 0) {
@@ -119,7 +119,7 @@ impl Source {
         self.is_utf8
     }
 
-    /// The name the text goes by in messages, usually the path as the user gave it.
+    /// Name of the text in messages, usually the path as the user gave it.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name

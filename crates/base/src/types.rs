@@ -1,20 +1,21 @@
-//! The elementary data types (IEC 61131-3, B.1.3.1), and what their bits mean.
+//! Elementary data types (IEC 61131-3, B.1.3.1), and the meaning of their bits.
 
 use std::fmt;
 
-/// An elementary data type. Its values are patterns of [`Type::width`] bits in the low end of a `u64`.
+/// Elementary data type. Its values are patterns of [`Type::width`] bits in the low end of a `u64`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Type {
-    /// What the bits mean.
+    /// Meaning of the bits.
     pub kind: Kind,
-    /// How many bits there are: 1, 8, 16, 32 or 64.
+    /// Number of bits: 1, 8, 16, 32 or 64.
     pub width: u32,
 }
 
-/// What the bits of a type mean.
+/// Meaning of the bits of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// `BOOL`, `BYTE`, `WORD`, `DWORD`, `LWORD`: bits without a meaning as a number; compared as unsigned numbers.
+    /// `BOOL`, `BYTE`, `WORD`, `DWORD`, `LWORD`: bit strings without a meaning as a number; compared as unsigned
+    /// numbers.
     Bits,
     /// `USINT`, `UINT`, `UDINT`, `ULINT`.
     Unsigned,
@@ -48,62 +49,62 @@ impl Type {
         ("TIME", Self::TIME),
     ];
 
-    /// The type of a kind and width.
+    /// Type of a kind and width.
     #[must_use]
     pub const fn new(kind: Kind, width: u32) -> Self {
         Self { kind, width }
     }
 
-    /// The type of a name, however it is spelt.
+    /// Type with a name, in any case.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|&(_, own)| own)
     }
 
-    /// Whether it is `BOOL`.
+    /// Whether the type is `BOOL`.
     #[must_use]
     pub fn is_bool(self) -> bool {
         self == Self::BOOL
     }
 
-    /// Whether numbers below 0 belong to it.
+    /// Whether the type has negative numbers.
     #[must_use]
     pub fn is_signed(self) -> bool {
         matches!(self.kind, Kind::Signed | Kind::Time)
     }
 
-    /// The bits a value can have.
+    /// Mask of the bits that a value can have.
     #[must_use]
     pub fn mask(self) -> u64 {
         u64::MAX >> (64 - self.width)
     }
 
-    /// The least number of the type.
+    /// Least number of the type.
     #[must_use]
     pub fn least(self) -> i128 {
         if self.is_signed() { -(1 << (self.width - 1)) } else { 0 }
     }
 
-    /// The greatest number of the type.
+    /// Greatest number of the type.
     #[must_use]
     pub fn greatest(self) -> i128 {
         if self.is_signed() { (1 << (self.width - 1)) - 1 } else { i128::from(self.mask()) }
     }
 
-    /// Whether a number is one of the type.
+    /// Whether the type has a number.
     #[must_use]
     pub fn holds(self, number: i128) -> bool {
         (self.least()..=self.greatest()).contains(&number)
     }
 
-    /// Whether a value of the other type may be a number that this one does not have. Bits are no numbers.
+    /// Whether a value of the other type may be a number that this one does not have. Bit strings are not numbers.
     #[must_use]
     pub fn overflows_from(self, other: Self) -> bool {
         let numbers = self.kind != Kind::Bits && other.kind != Kind::Bits;
         numbers && !(self.holds(other.least()) && self.holds(other.greatest()))
     }
 
-    /// The number a pattern stands for.
+    /// Number that a pattern stands for.
     #[must_use]
     pub fn number(self, pattern: u64) -> i128 {
         let pattern = pattern & self.mask();
@@ -111,7 +112,7 @@ impl Type {
         i128::from(pattern) - if negative { 1 << self.width } else { 0 }
     }
 
-    /// The pattern of a number, modulo 2^width.
+    /// Pattern of a number, modulo 2^width.
     #[must_use]
     pub fn pattern(self, number: i128) -> u64 {
         number as u64 & self.mask()

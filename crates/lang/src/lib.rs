@@ -1,4 +1,4 @@
-//! PLC programs: their syntax, their typing, flat code, and the interpreter that says what a program means.
+//! PLC programs: syntax, static semantics, flat code, and the interpreter, which defines the meaning of a program.
 //!
 //! ```text
 //! text ──syntax──▶ AST ──semantics──▶ Program ──flat──▶ FlatProgram ──interpret──▶ values after each scan

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Whether a problem stops the work or is only worth knowing.
+/// Severity: whether a problem stops the work or is only worth knowing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// The text cannot be used as it is.
@@ -23,13 +23,13 @@ macro_rules! codes {
             /// Every code, in the order of the table.
             pub const ALL: &'static [Code] = &[$(Code::$name),+];
 
-            /// The code as it is printed, like `E0201`.
+            /// Printed form of the code, like `E0201`.
             #[must_use]
             pub fn id(self) -> &'static str {
                 match self { $(Code::$name => $id),+ }
             }
 
-            /// What the problem is, in one sentence.
+            /// Summary of the problem in one sentence.
             #[must_use]
             pub fn summary(self) -> &'static str {
                 match self { $(Code::$name => concat!($($summary),+).trim_ascii()),+ }
@@ -322,7 +322,7 @@ codes! {
 }
 
 impl Code {
-    /// Whether the problem stops the work; the letter of the code.
+    /// Severity of the problem, by the letter of its code.
     #[must_use]
     pub fn severity(self) -> Severity {
         if self.id().starts_with('W') { Severity::Warning } else { Severity::Error }

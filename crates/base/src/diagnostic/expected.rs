@@ -1,4 +1,4 @@
-//! What a grammar expected, in the words of its language instead of rule names.
+//! Syntax errors as diagnostics: the expected tokens in the words of the language instead of rule names.
 
 use pest::RuleType;
 use pest::error::{Error, ErrorVariant, InputLocation};
@@ -6,10 +6,10 @@ use pest::error::{Error, ErrorVariant, InputLocation};
 use super::{Code, Diagnostic};
 use crate::source::Span;
 
-/// A grammar's error on a piece of text as a diagnostic.
+/// Converts a grammar's error on a piece of text to a diagnostic.
 ///
-/// `start` is the piece's offset in the whole text, `end` what its end is called, and `name` what a rule is called, if it is
-/// worth telling.
+/// `start` is the piece's offset in the whole text, `end` the name of its end in messages, and `name` that of a rule;
+/// rules without a name are not listed.
 pub fn expected<R: RuleType>(
     error: &Error<R>,
     (text, start): (&str, usize),
@@ -20,16 +20,16 @@ pub fn expected<R: RuleType>(
     let at = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at.min(text.len()),
     };
-    // The end is where the last word ends.
+    // The end of the text is where its last word ends.
     let at = if text[at..].trim().is_empty() { at.min(text.trim_end().len()) } else { at };
-    // Blanks that the grammar does not know belong to no token.
+    // Blanks that the grammar does not know are not part of a token.
     let blanks = text[at..].find(|c: char| c == '\n' || !c.is_whitespace()).unwrap_or(0);
     let at = at + blanks;
     let token = first_token(&text[at..]);
     let span = Span::new(start + at, start + at + token.len());
     let found = if token.is_empty() { end.to_owned() } else { format!("`{token}`") };
     let ErrorVariant::ParsingError { positives, .. } = &error.variant else {
-        // The parser's stack is limited, so that no text overflows the program's.
+        // The depth of the parser is limited, so that no text overflows the program's stack.
         return Diagnostic::new(code, Span::new(start + at, start + at), "what stands here is nested too deeply");
     };
     let mut names: Vec<&str> = Vec::new();
@@ -46,8 +46,8 @@ pub fn expected<R: RuleType>(
     Diagnostic::new(code, span, message)
 }
 
-/// The same for languages whose names are made of plain letters: a letter with an accent is what is wrong, not that the name
-/// ends before it.
+/// Reports a letter with an accent as what is wrong, not the end of a name before it; for languages whose names are
+/// made of plain letters.
 pub fn plain_letters(diagnostic: Diagnostic, (text, start): (&str, usize)) -> Diagnostic {
     let at = diagnostic.span().start - start;
     match text[at..].chars().next() {
@@ -60,7 +60,7 @@ pub fn plain_letters(diagnostic: Diagnostic, (text, start): (&str, usize)) -> Di
     }
 }
 
-/// The word or the few signs a text begins with; nothing if only white space is left.
+/// First token of a text: a word or a few signs; empty if only white space is left.
 fn first_token(text: &str) -> &str {
     let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.' || c == '#';
     let end = match text.chars().next() {

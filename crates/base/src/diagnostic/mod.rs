@@ -1,7 +1,7 @@
-//! Diagnostics as data: a code, a message, labelled spans, and help that says how to mend it.
+//! Diagnostics as data: a code, a message, labelled spans, and help that says how to correct it.
 //!
-//! A label says what is there; help says what to do. Nothing here prints: [`render()`] gives text, and whoever holds the
-//! terminal prints it.
+//! A label says what is there; help says what to do. Nothing here prints: [`render()`] returns text, and the command
+//! line prints it.
 
 mod code;
 mod expected;
@@ -15,49 +15,49 @@ pub use suggest::nearest;
 
 use crate::source::Span;
 
-/// One thing that is wrong (or doubtful) in a source text, and where.
+/// A problem in a source text: an error or a warning, with its places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Which of the known problems this is.
+    /// Code of the problem.
     pub code: Code,
-    /// One sentence that says what is wrong with this very text.
+    /// Message: one sentence that says what is wrong with this very text.
     pub message: String,
-    /// The places concerned; the first is where the reader is sent.
+    /// Places concerned; the first is the primary one, where the reader is sent.
     pub labels: Vec<Label>,
-    /// What to do about it, one sentence each.
+    /// Help: what to do about it, one sentence each.
     pub help: Vec<String>,
 }
 
-/// A span and what stands there.
+/// Label: a span with a note on what stands there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// The text concerned.
+    /// Span concerned.
     pub span: Span,
-    /// What is there; may be empty for the first label, where the message says it.
+    /// Note on what is there; may be empty for the first label, where the message says it.
     pub text: String,
 }
 
 impl Diagnostic {
-    /// A diagnostic with its message and the place it is about.
+    /// Creates a diagnostic with its message and the place it is about.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self { code, message: message.into(), labels: vec![Label { span, text: String::new() }], help: Vec::new() }
     }
 
-    /// Says what stands at the main place.
+    /// Sets the note of the primary label.
     #[must_use]
     pub fn here(mut self, text: impl Into<String>) -> Self {
         self.labels[0].text = text.into();
         self
     }
 
-    /// Adds another place that plays a part.
+    /// Adds a secondary label.
     #[must_use]
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into() });
         self
     }
 
-    /// Adds a sentence that says what to do.
+    /// Adds a sentence of help.
     #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Self {
         self.help.push(text.into());
@@ -73,20 +73,20 @@ impl Diagnostic {
         }
     }
 
-    /// The same for the problem at this position of a list, from 0: nobody reads the hundred-and-first, and to suggest a
-    /// name for each of thousands takes minutes.
+    /// Adds a suggestion as [`suggest`](Self::suggest) does, but only to the first 100 problems of a list (`position`
+    /// counts from 0): nobody reads the hundred-and-first, and to suggest a name for each of thousands takes minutes.
     #[must_use]
     pub fn suggest_at<'a>(self, position: usize, written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Self {
         if position < 100 { self.suggest(written, candidates) } else { self }
     }
 
-    /// The place the reader is sent to.
+    /// Span of the primary label, where the reader is sent.
     #[must_use]
     pub fn span(&self) -> Span {
         self.labels[0].span
     }
 
-    /// Whether this makes the text unusable.
+    /// Whether the problem is an error: the text cannot be used.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.code.severity() == Severity::Error

@@ -9,12 +9,12 @@ use crate::source::Source;
 /// Lines of context around an excerpt.
 const CONTEXT: usize = 1;
 
-/// How diagnostics are set: with or without colour, and how wide.
+/// Layout of diagnostics: with or without colour, and how wide.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// ANSI colours.
+    /// Whether ANSI colours are used.
     pub colour: bool,
-    /// Columns of the terminal.
+    /// Width in columns.
     pub width: usize,
 }
 
@@ -24,13 +24,13 @@ impl Default for Style {
     }
 }
 
-/// On lines of more than this many bytes only the first label is shown.
+/// Longest line, in bytes, on which more than the first label is shown.
 const MAX_LINE: usize = 1000;
 
-/// A word of a message, like a name it quotes, may have this many characters.
+/// Longest word of a message, like a quoted name, in characters; longer ones are cut.
 const MAX_WORD: usize = 80;
 
-/// The diagnostic as lines of text, with code, file, line, column, excerpt and help; ends with a newline.
+/// Renders a diagnostic as lines of text, with code, file, line, column, excerpt and help; ends with a newline.
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, source: &Source, style: Style) -> String {
     let level = match diagnostic.code.severity() {
@@ -50,7 +50,7 @@ pub fn render(diagnostic: &Diagnostic, source: &Source, style: Style) -> String 
     text
 }
 
-/// A message on one line, with its longest words cut: a name can be as long as a file.
+/// Message on one line, with its longest words cut: a name can be as long as a file.
 fn shortened(message: &str) -> String {
     let message = printable::line(message);
     let mut length = 0;
@@ -66,8 +66,8 @@ fn shortened(message: &str) -> String {
     message.chars().filter_map(keep).collect()
 }
 
-/// A text with signs of as many bytes in the place of what would not show as itself: offsets stay right. The renderer has signs of
-/// its own for the control characters of one byte.
+/// Text with a sign of the same length in bytes in place of each character that is not printable, so that offsets stay
+/// right. The renderer has signs of its own for the control characters of one byte.
 fn visible(text: &str) -> String {
     let sign = |c: char| match c.len_utf8() {
         _ if printable::is_printable(c) => c,
@@ -79,7 +79,8 @@ fn visible(text: &str) -> String {
     text.chars().map(sign).collect()
 }
 
-/// Only the lines the labels touch go to the renderer: it reads all it is given.
+/// Excerpt of the source with the labels. Only the lines that labels touch go to the renderer, which reads all of its
+/// input.
 fn excerpt<'a>(
     diagnostic: &'a Diagnostic,
     source: &'a Source,
@@ -90,7 +91,7 @@ fn excerpt<'a>(
     let lines = diagnostic.labels.iter().flat_map(|l| [l.span.start, l.span.end]).map(|o| source.line_of(clamp(o)));
     let first = lines.clone().min().unwrap_or(1).saturating_sub(CONTEXT).max(1);
     let window = source.lines(first, lines.max().unwrap_or(1) + CONTEXT);
-    // Between labels that are far apart on one line, the renderer leaves nothing out.
+    // The renderer prints everything between labels on one line, however far apart they are.
     let mut starts = diagnostic.labels.iter().map(|label| source.line_of(clamp(label.span.start)));
     let is_long = starts.any(|line| source.line_text(line).len() > MAX_LINE);
     let labels = if is_long { 1 } else { diagnostic.labels.len() };

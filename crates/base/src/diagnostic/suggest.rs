@@ -1,11 +1,11 @@
-//! The nearest of the names that exist, for "did you mean …?".
+//! The nearest existing name, for "did you mean …?".
 
-/// Candidates that are looked at.
+/// Maximum number of candidates compared.
 const MAX_CANDIDATES: usize = 10_000;
 
-/// The candidate closest to `written`, if it is close enough to be a slip of the pen: at most one edit (insertion,
-/// deletion, replacement, swap) in three letters, and never all of them. Case does not count. Of several that are as close,
-/// the first one that begins with the same letter is taken, else the first one.
+/// Candidate closest to `written`, if it is close enough to be a typing error: at most one edit (insertion, deletion,
+/// replacement, swap: the Damerau–Levenshtein distance) in three letters, and never all of them. Case does not count.
+/// Of several that are as close, the first one that begins with the same letter is taken, else the first one.
 pub fn nearest<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let written = written.to_lowercase();
     let letters = written.chars().count();

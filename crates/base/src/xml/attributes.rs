@@ -1,21 +1,21 @@
-//! The attributes of a start tag, and the references in texts.
+//! Attributes of a start tag, and references in texts.
 
 use std::borrow::Cow;
 
-/// An attribute as it is written.
+/// Attribute as it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attribute<'s> {
     pub name: &'s str,
-    /// Between the quotation marks.
+    /// Text between the quotation marks, its references unresolved.
     pub value: &'s str,
-    /// Where the value begins, counted from where the attributes do.
+    /// Offset of the value in bytes, counted from where the attributes begin.
     pub offset: usize,
 }
 
-/// What is wrong, and where, counted from where the attributes begin.
+/// Error: its offset in bytes, counted from the start of the text read, and its message.
 pub type Wrong = (usize, String);
 
-/// Goes through what stands behind the name in a start tag. After the first error there is nothing more.
+/// Iterator over the attributes after the name in a start tag; ends after the first error.
 pub struct Attributes<'s> {
     text: &'s str,
     at: usize,
@@ -75,7 +75,7 @@ impl<'s> Iterator for Attributes<'s> {
     }
 }
 
-/// The first reference in a text that means nothing, as a position and a sentence.
+/// First invalid reference in a text, as an offset and a message.
 pub fn unknown_reference(text: &str) -> Option<Wrong> {
     for (at, _) in text.match_indices('&') {
         let rest = &text[at + 1..];
@@ -90,10 +90,10 @@ pub fn unknown_reference(text: &str) -> Option<Wrong> {
     None
 }
 
-/// An ampersand that begins no reference.
+/// Message for an ampersand that does not begin a reference.
 pub const DANGLING: &str = "`&` begins no reference; the character itself is written `&amp;`";
 
-/// A value without references, its blanks as spaces, as XML has it.
+/// Normalised value of an attribute: references resolved, white space as spaces (XML 1.0, section 3.3.3).
 pub fn resolved(value: &str) -> Cow<'_, str> {
     if !value.contains(['&', '\n', '\t', '\r']) {
         return Cow::Borrowed(value);
@@ -110,7 +110,7 @@ pub fn resolved(value: &str) -> Cow<'_, str> {
     Cow::Owned(text)
 }
 
-/// The character that a reference, without `&` and `;`, means.
+/// Character that a reference, written without `&` and `;`, stands for.
 pub fn character(reference: &str) -> Option<char> {
     let number = |digits: &str, radix| {
         let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_digit(radix));
@@ -135,7 +135,7 @@ pub fn is_character(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='\u{FFFD}' | '\u{10000}'..)
 }
 
-/// A name, with or without a prefix. Of the letters beyond ASCII all are taken.
+/// Whether a text is a name, with or without a prefix. All characters beyond ASCII are accepted.
 pub fn is_name(text: &str) -> bool {
     let is_part = |part: &str| {
         let mut chars = part.chars();
@@ -148,7 +148,7 @@ pub fn is_name(text: &str) -> bool {
     }
 }
 
-/// What XML takes for a blank.
+/// Whether a character is white space in XML.
 pub fn is_blank(c: char) -> bool {
     matches!(c, ' ' | '\t' | '\n' | '\r')
 }

@@ -1,5 +1,5 @@
-//! XML documents with positions: as a tree, where what is read is small and looked at from all sides, or as a stream, where
-//! it may be hundreds of megabytes.
+//! XML documents with positions: as a tree, for small documents that are looked at from all sides, or as a stream, for
+//! documents that may have hundreds of megabytes.
 
 mod attributes;
 mod stream;
@@ -13,14 +13,14 @@ pub use written::written;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// Document type declarations, which could define entities of any size, are refused: no format that is read has them.
+/// Refuses a document type declaration, which could define entities of any size: no format that is read has one.
 fn document_type(at: usize, code: Code, format: &str) -> Diagnostic {
     let span = Span::new(at, at + "<!DOCTYPE".len());
     Diagnostic::new(code, span, format!("a document type declaration is not part of {format}"))
         .help("remove the `<!DOCTYPE …>` with all its entities")
 }
 
-/// What every XML reader refuses.
+/// Diagnostic for a document that is not well-formed.
 fn ill_formed(at: usize, code: Code, what: &str) -> Diagnostic {
     Diagnostic::new(code, Span::new(at, at), format!("this is no well-formed XML: {what}"))
 }

@@ -1,7 +1,7 @@
 //! XML as a stream: one event after another, in no more memory than the text takes.
 //!
-//! quick-xml cuts the text into tags and what stands between them. What else makes a document well-formed is checked here:
-//! names, attributes, prefixes, references, and that there is one element with everything in it.
+//! quick-xml cuts the text into tags and the text between them. Whatever else makes a document well-formed is checked
+//! here: names, attributes, prefixes, references, and that there is one root element with everything in it.
 
 use std::borrow::Cow;
 
@@ -17,30 +17,30 @@ use super::{document_type, ill_formed};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ShortSpan, Source, Span};
 
-/// What comes next in a document.
+/// Event of a document.
 #[derive(Debug)]
 pub enum Event<'s> {
-    /// An element begins.
+    /// Start of an element.
     Start(Element<'s>),
-    /// The element that began last, of those that are open, ends.
+    /// End of the innermost open element.
     End,
-    /// A piece of text, without references. Comments and processing instructions stand between pieces.
+    /// A piece of text, its references resolved. Comments and processing instructions stand between pieces.
     Text(Piece<'s>),
 }
 
-/// A start tag.
+/// Start tag of an element.
 #[derive(Clone, Debug)]
 pub struct Element<'s> {
-    /// Its name, without prefix.
+    /// Name of the element, without prefix.
     pub name: &'s str,
-    /// The namespace the prefix stands for; empty if there is none.
+    /// Namespace that the prefix is bound to; empty if there is none.
     pub namespace: &'s str,
-    /// From `<` to behind the name.
+    /// Span from `<` to the end of the name.
     pub span: Span,
     attributes: &'s str,
 }
 
-/// A piece of text and where it stands.
+/// A piece of text and its span.
 #[derive(Clone, Debug)]
 pub struct Piece<'s> {
     /// The text, with entities resolved.
@@ -50,7 +50,7 @@ pub struct Piece<'s> {
 }
 
 impl<'s> Element<'s> {
-    /// An attribute, without outer blanks; the span is that of all that stands in quotation marks.
+    /// Value of an attribute, without outer blanks; the span is that of all text in quotation marks.
     pub fn attribute(&self, name: &str) -> Option<Piece<'s>> {
         let found = Attributes::of(self.attributes).flatten().find(|attribute| attribute.name == name)?;
         let start = self.span.end + found.offset;
@@ -59,7 +59,7 @@ impl<'s> Element<'s> {
     }
 }
 
-/// What an attribute holds, by the span it was given with.
+/// Value of an attribute, by the span that [`Element::attribute`] gave.
 pub fn attribute_at(source: &Source, span: Span) -> Cow<'_, str> {
     trimmed(resolved(source.slice(span)))
 }
@@ -71,15 +71,15 @@ fn trimmed(text: Cow<'_, str>) -> Cow<'_, str> {
     }
 }
 
-/// The events of a document. After an error there is nothing more.
+/// Reader of the events of a document. Nothing is to be read after an error.
 pub struct Stream<'s> {
     source: &'s Source,
     code: Code,
     format: &'static str,
     reader: Reader<&'s [u8]>,
-    /// Where the text begins that the reader has: behind a byte order mark.
+    /// Offset of the text given to `reader`: after a byte order mark.
     start: usize,
-    /// How many elements are open.
+    /// Number of open elements.
     depth: usize,
     has_root: bool,
     says_latin_1: bool,
@@ -87,7 +87,7 @@ pub struct Stream<'s> {
 }
 
 impl<'s> Stream<'s> {
-    /// The stream of a text; `format` is what it should be.
+    /// Opens the stream of a text; `format` is the name of the expected format in messages.
     pub fn of(source: &'s Source, code: Code, format: &'static str) -> Result<Self, Diagnostic> {
         let text = source.text();
         if text.len() > ShortSpan::MAX_TEXT {
@@ -101,7 +101,7 @@ impl<'s> Stream<'s> {
         let prefixes = Prefixes::default();
         let stream =
             Self { source, code, format, reader, start, depth: 0, has_root: false, says_latin_1: false, prefixes };
-        // Few characters are no part of XML, and these are rare: all are looked for at once.
+        // The characters that XML excludes are few and rare: all are looked for at once.
         let odd = |&(_, c): &(usize, char)| !is_character(c);
         let may_be_odd = |b: u8| (b < b' ' && !matches!(b, b'\t' | b'\n' | b'\r')) || b == 0xEF;
         match text.bytes().any(may_be_odd).then(|| text.char_indices().find(odd)).flatten() {
@@ -123,7 +123,7 @@ impl<'s> Stream<'s> {
         self.start + self.reader.buffer_position() as usize
     }
 
-    /// The next element in the one at hand, past any text; `None` at its end.
+    /// Next child of the current element, past any text; `None` at the end of the element.
     pub fn child(&mut self) -> Result<Option<Element<'s>>, Diagnostic> {
         loop {
             match self.next()? {
@@ -186,7 +186,7 @@ impl<'s> Stream<'s> {
         }
     }
 
-    /// Goes to the end of the element that began last.
+    /// Skips to the end of the innermost open element.
     pub fn skip(&mut self) -> Result<(), Diagnostic> {
         let outside = self.depth - 1;
         while self.depth > outside {
@@ -195,8 +195,8 @@ impl<'s> Stream<'s> {
         Ok(())
     }
 
-    /// What the element that began last holds as text, to its end: without comments and elements in it, without outer blanks.
-    /// Where there is none, the span is its tag's.
+    /// Reads the text content of the innermost open element to its end: without comments and child elements, without
+    /// outer blanks. The span of an empty content is that of the tag.
     pub fn content(&mut self, element: &Element<'s>) -> Result<Piece<'s>, Diagnostic> {
         let mut content: Option<Piece<'s>> = None;
         loop {
@@ -271,7 +271,7 @@ impl<'s> Stream<'s> {
         Ok(Event::Start(Element { name, namespace, span, attributes }))
     }
 
-    /// Beside the root node there are blanks only.
+    /// Checks that outside the root node there are blanks only.
     fn outside(&self, text: &str, start: usize) -> Result<(), Diagnostic> {
         match text.find(|c| !is_blank(c)) {
             Some(at) => Err(self.ill_formed(start + at, "text stands outside the root node")),
@@ -279,7 +279,7 @@ impl<'s> Stream<'s> {
         }
     }
 
-    /// The line that says which XML this is, and in which letters.
+    /// Checks the XML declaration and the encoding it names.
     fn declaration(&mut self, span: Span) -> Result<(), Diagnostic> {
         if span.start != self.start {
             return Err(self.ill_formed(span.start, "the XML declaration does not stand at the beginning"));
@@ -302,7 +302,7 @@ impl<'s> Stream<'s> {
         Ok(())
     }
 
-    /// What quick-xml has against the text.
+    /// Diagnostic for an error of quick-xml.
     fn refused(&self, error: &Error) -> Diagnostic {
         let at = self.start + self.reader.error_position() as usize;
         let unclosed = |what: &str| {
@@ -310,7 +310,7 @@ impl<'s> Stream<'s> {
         };
         match error {
             Error::Syntax(SyntaxError::UnclosedDoctype) | Error::IllFormed(IllFormedError::MissingDoctypeName) => {
-                // One without a name is complained of at its end.
+                // A declaration without a name is reported at its end.
                 let text = self.source.text();
                 let start = text[..(at + 2).min(text.len())].rfind("<!").unwrap_or(at);
                 document_type(start, self.code, self.format)
@@ -333,16 +333,16 @@ impl<'s> Stream<'s> {
     }
 }
 
-/// A text as XML has it: a line ends with a line feed.
+/// Text with line feeds as line ends (XML 1.0, section 2.11).
 fn with_line_feeds(text: &str) -> Cow<'_, str> {
     if text.contains('\r') { Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")) } else { Cow::Borrowed(text) }
 }
 
-/// What prefixes stand for; the empty one for those names that have none.
+/// Namespaces bound to prefixes; the empty prefix stands for the default namespace.
 #[derive(Default)]
 struct Prefixes<'s> {
     bound: FxHashMap<&'s str, Vec<&'s str>>,
-    /// Which prefix was bound at which depth.
+    /// Prefixes bound by open elements, each with the depth of its element.
     declared: Vec<(usize, &'s str)>,
 }
 

@@ -5,7 +5,7 @@ use roxmltree::{Document, Node};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Source, Span};
 
-/// A text without outer blanks, and where it stands.
+/// Text without outer blanks, and its span.
 #[derive(Clone, Debug)]
 pub struct Text {
     /// The text, with entities resolved.
@@ -14,7 +14,7 @@ pub struct Text {
     pub span: Span,
 }
 
-/// The document of a text, or why it is none.
+/// Parses a document, or says why the text is not one.
 pub fn document<'s>(source: &'s Source, code: Code, format: &str) -> Result<Document<'s>, Diagnostic> {
     Document::parse(source.text()).map_err(|error| malformed(&error, source, code, format))
 }
@@ -22,7 +22,7 @@ pub fn document<'s>(source: &'s Source, code: Code, format: &str) -> Result<Docu
 fn malformed(error: &roxmltree::Error, source: &Source, code: Code, format: &str) -> Diagnostic {
     use roxmltree::Error;
     let at = match error {
-        // These have no position of their own.
+        // Neither error has a position of its own.
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => source.text().trim_end().len(),
         Error::DtdDetected => source.text().find("<!DOCTYPE").unwrap_or(0),
         _ => offset(source, error.pos()).min(source.text().trim_end().len()),
@@ -41,36 +41,36 @@ fn offset(source: &Source, position: roxmltree::TextPos) -> usize {
     line.start + text.char_indices().nth(position.col as usize - 1).map_or(text.len(), |(at, _)| at)
 }
 
-/// The children of an element that are elements: no text, no comments.
+/// Child elements of an element, without text and comments.
 pub fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
     node.children().filter(Node::is_element)
 }
 
-/// The first child element of a name.
+/// First child element with a name.
 pub fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
     elements(node).find(|&child| tag(child) == name)
 }
 
-/// The start tag's name, without namespace.
+/// Name of the element, without namespace.
 pub fn tag<'a>(node: Node<'a, '_>) -> &'a str {
     node.tag_name().name()
 }
 
-/// Where an element's start tag begins: from `<` to behind the tag's name.
+/// Span of the beginning of the start tag: from `<` to the end of the name.
 pub fn tag_span(node: Node<'_, '_>) -> Span {
     let start = node.range().start;
     let name = node.document().input_text()[start..].find([' ', '\t', '\r', '\n', '/', '>']);
     Span::new(start, start + name.unwrap_or(1))
 }
 
-/// An attribute.
+/// Value of an attribute, without outer blanks.
 pub fn attribute(node: Node<'_, '_>, name: &str) -> Option<Text> {
     let attribute = node.attribute_node(name)?;
     let range = attribute.range_value();
     Some(Text { text: attribute.value().trim().to_owned(), span: Span::new(range.start, range.end) })
 }
 
-/// What an element holds as text, without comments and elements in it; where there is none, the span is its tag's.
+/// Text content of an element, without comments and child elements; the span of an empty content is that of the tag.
 pub fn content(element: Node<'_, '_>) -> Text {
     let text: String = element.children().filter(Node::is_text).filter_map(|piece| piece.text()).collect();
     let written = element.children().find(|piece| piece.is_text() && !piece.text().unwrap_or("").trim().is_empty());

@@ -1,12 +1,13 @@
-//! Texts as they are written into XML: whoever reads the document gets the same characters back, whoever looks at it sees them.
+//! Escaping of text for XML: a reader of the document gets the same characters back, and every character is visible in
+//! it.
 
 use std::fmt::Write as _;
 
 use super::attributes::is_character;
 use crate::printable::{is_printable, line};
 
-/// The content of an element, or the value of an attribute in quotes: what is markup or not printable is a reference. What XML
-/// cannot hold at all is written as people see it elsewhere, like `\u{1b}`.
+/// Escapes text for the content of an element or the value of an attribute: markup and characters that are not
+/// printable become references. Characters that XML cannot hold are written as in printed text, like `\u{1b}`.
 pub fn written(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

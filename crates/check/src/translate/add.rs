@@ -1,5 +1,5 @@
-//! `ADD x`, `SUB x`: ripple carry from the lowest bit, the carry in the control place. A difference is the sum with the
-//! complement of the operand and a carry in.
+//! `ADD x`, `SUB x`: ripple-carry adder from the lowest bit, the carry in the control place. A difference is the sum
+//! with the complement of the operand and a carry in.
 
 use super::subnet::Subnet;
 use super::walk::Stage;
@@ -8,12 +8,12 @@ use super::wire::{Wire, with};
 use petril_lang::flat::Hazard;
 use petril_lang::semantics::{Kind, Type};
 
-/// A full adder's sum and carry.
+/// Full adder: sum and carry.
 pub fn full(a: bool, b: bool, carry: bool) -> (bool, bool) {
     (a ^ b ^ carry, u8::from(a) + u8::from(b) + u8::from(carry) >= 2)
 }
 
-/// The alternatives of `bit := bit + wire + carry`: what changes, and both carries, in and out.
+/// Alternatives of `bit := bit + wire + carry`: the changes, and both carries, in and out.
 pub fn alternatives(bit: Bit, wire: &Wire, carry: bool) -> Vec<(Changes, [bool; 2])> {
     let mut alternatives = Vec::with_capacity(2 * wire.0.len());
     for old in VALUES {
@@ -38,7 +38,7 @@ pub fn overflows(ty: Type, subtracts: bool, [carry_in, carry_out]: [bool; 2]) ->
 enum State {
     /// Before this bit, with this carry.
     Bit(usize, bool),
-    /// Behind the highest bit, with these carries into and out of it.
+    /// After the highest bit, with these carries into and out of it.
     Done([bool; 2]),
 }
 
@@ -49,7 +49,7 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, subtracts: bool, wires: Vec<
         if bit + 1 == wires.len() { State::Done(carries) } else { State::Bit(bit + 1, carries[1]) }
     };
     subnet.walk(here, State::Bit(0, subtracts), |subnet, state| match *state {
-        // If operand and carry are both 0 or both 1, the bit stays as it is, and the carry too.
+        // If operand and carry are equal, neither the bit nor the carry changes.
         State::Bit(bit, carry) if wires[bit].known() == Some(carry) => Stage::Same(after(bit, [carry; 2])),
         State::Bit(bit, carry) => {
             let alternatives = alternatives(result[bit], &wires[bit], carry).into_iter();

@@ -1,4 +1,4 @@
-//! Whether the current result is in a range; only the bits that can decide it are read.
+//! Range check of the current result; only the bits that can decide it are read.
 
 use smallvec::smallvec;
 
@@ -11,7 +11,8 @@ use petril_lang::flat::Hazard;
 use petril_lang::semantics::Type;
 use petril_net::net::PlaceId;
 
-/// A number outside goes through the place of the hazard. An index then becomes the least one.
+/// Translates a range check. A number outside goes through the place of the hazard; an index then becomes the least
+/// one.
 pub fn translate(subnet: &mut Subnet<'_>, ty: Type, (lower, upper): (i128, i128), hazard: Hazard) {
     let (here, next) = (subnet.here(), subnet.next());
     within(subnet, here, ty, (lower, upper), hazard, next);
@@ -26,7 +27,8 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, (lower, upper): (i128, i128)
     subnet.chain(outside, next, &steps);
 }
 
-/// Goes on at `inside` if the current result is in the range, and at the place of the hazard if not.
+/// Adds a range check that leads to `inside` if the current result is in the range, and to the place of the hazard if
+/// not.
 pub fn within(
     subnet: &mut Subnet<'_>,
     from: PlaceId,

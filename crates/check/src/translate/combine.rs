@@ -1,4 +1,5 @@
-//! `AND x`, `OR x`, `XOR x` and their N forms: one transition for each pair of current result and operand, bit by bit.
+//! `AND x`, `OR x`, `XOR x` and their N forms, bit by bit: one transition for each pair of values of current result and
+//! operand.
 
 use super::subnet::{Step, Subnet};
 use super::weaver::VALUES;
@@ -6,7 +7,7 @@ use super::wire::{Wire, with};
 use petril_lang::flat::Function;
 use petril_lang::semantics::Type;
 
-/// The function's table: its value for (current result, operand) = 00, 01, 10, 11.
+/// Truth table of the function: its value for (current result, operand) = 00, 01, 10, 11.
 fn table(function: Function) -> [bool; 4] {
     match function {
         Function::Or => [false, true, true, true],
@@ -15,7 +16,7 @@ fn table(function: Function) -> [bool; 4] {
     }
 }
 
-/// The bits of a wider type that a constant leaves as they are take no step.
+/// Translates a bitwise function. Bits of a wider type that a constant operand does not change take no step.
 pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, wires: &[Wire]) {
     let table = table(function);
     let value = |old: bool, value: bool| table[2 * usize::from(old) + usize::from(value)];

@@ -23,7 +23,7 @@ fn truth(function: Function, ordering: Ordering) -> bool {
     }
 }
 
-/// The alternatives of a bit and a wire, each with how they are ordered; a sign bit is ordered the other way round.
+/// Alternatives of a bit and a wire, each with their ordering; a sign bit is ordered the other way round.
 pub fn alternatives(bit: Bit, wire: &Wire, sign: bool) -> Vec<(Changes, Ordering)> {
     let mut alternatives = Vec::with_capacity(2 * wire.0.len());
     for own in VALUES {
@@ -37,11 +37,11 @@ pub fn alternatives(bit: Bit, wire: &Wire, sign: bool) -> Vec<(Changes, Ordering
 
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum State {
-    /// All bits above this one are equal.
+    /// Bits above this one are all equal.
     Equal(usize),
-    /// The answer is known.
+    /// The truth value of the comparison is known.
     Known(bool),
-    /// The answer is in the current result.
+    /// The truth value is in the current result.
     Done,
 }
 
@@ -49,7 +49,7 @@ pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, wires: &
     let (here, next, result) = (subnet.here(), subnet.next(), subnet.result(ty.width));
     subnet.walk(here, State::Equal(wires.len() - 1), |_, state| match *state {
         State::Equal(0) => {
-            // The lowest bit is that of the answer too.
+            // The lowest bit also takes the truth value.
             let mut branches = alternatives(result[0], &wires[0], ty.is_signed() && wires.len() == 1);
             branches.iter_mut().for_each(|(changes, ordering)| changes[0].2 = truth(function, *ordering));
             Stage::Branch(branches.into_iter().map(|(changes, _)| (changes, State::Done)).collect())

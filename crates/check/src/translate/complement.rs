@@ -1,4 +1,4 @@
-//! `NOT`: every bit of the current result changes its value.
+//! `NOT`: complements every bit of the current result.
 
 use smallvec::smallvec;
 

@@ -1,4 +1,5 @@
-//! The current result in another type: cut off or extended, and whether the number is one of the new type.
+//! Conversion of the current result to another type: truncated or extended, with a check that the new type has the
+//! number.
 
 use smallvec::smallvec;
 
@@ -18,7 +19,7 @@ pub fn translate(subnet: &mut Subnet<'_>, from: Type, to: Type) {
         return to_bool(subnet, own);
     }
     let checked = if to.overflows_from(from) && !new.is_empty() { subnet.within() } else { here };
-    // A negative number is extended by ones. It is still there to be checked afterwards.
+    // Sign extension: a negative number is extended by ones. The original bits stay and can be checked afterwards.
     let extension = if from.is_signed() { Wire::of(own[own.len() - 1]) } else { Wire::fixed(false) };
     let steps: Vec<Step> = new.iter().map(|&bit| extension.assign(bit)).collect();
     if to.overflows_from(from) {
@@ -32,18 +33,18 @@ pub fn translate(subnet: &mut Subnet<'_>, from: Type, to: Type) {
     }
 }
 
-/// Whether any bit is 1.
+/// Translates a conversion to `BOOL`: whether any bit is 1.
 fn to_bool(subnet: &mut Subnet<'_>, bits: &[Bit]) {
     #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
-        /// All bits above this one are 0.
+        /// Bits above this one are all 0.
         Zero(usize),
         NotZero,
         Done,
     }
     let (here, next) = (subnet.here(), subnet.next());
     subnet.walk(here, State::Zero(bits.len() - 1), |_, state| match *state {
-        // If only the lowest is left, it is the answer.
+        // If only the lowest bit is left, it is the truth value.
         State::Zero(0) | State::Done => Stage::Leave(next),
         State::Zero(bit) => {
             let state = |value| if value { State::NotZero } else { State::Zero(bit - 1) };

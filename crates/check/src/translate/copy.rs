@@ -1,4 +1,4 @@
-//! The copying of an input, bit by bit from the highest (seed paper, figure 8).
+//! Copying of an input, bit by bit from the highest (seed paper, figure 8).
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -10,18 +10,18 @@ use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::VarId;
 use petril_net::net::{Arcs, PlaceId};
 
-/// Where control enters and leaves the copying of an input.
+/// Control places before and after the copying of an input.
 #[derive(Clone, Copy)]
 pub struct Way {
     pub from: PlaceId,
     pub to: PlaceId,
 }
 
-/// A place of the plant that gives an input a value.
+/// Place of the plant that gives an input a value.
 pub struct Source {
     pub place: PlaceId,
     pub name: String,
-    /// The value, as a pattern.
+    /// Value of the input, as a pattern.
     pub pattern: u64,
 }
 
@@ -30,11 +30,11 @@ struct Copying<'a> {
     program: &'a FlatProgram,
     input: VarId,
     way: Way,
-    /// How many places there are on the way.
+    /// Number of control places added so far.
     within: u32,
 }
 
-/// The input takes the value of the plant's place that is marked.
+/// Copies the value of the plant's marked place to the input.
 pub fn driven(weaver: &mut Weaver, program: &FlatProgram, input: VarId, sources: &[Source], way: Way) {
     let mut copying = Copying { weaver, program, input, way, within: 0 };
     let mut at = way.from;
@@ -47,7 +47,7 @@ pub fn driven(weaver: &mut Weaver, program: &FlatProgram, input: VarId, sources:
     }
 }
 
-/// The input takes any value of its domain: control goes through the decisions that are still open.
+/// Gives the input any value of its domain: control goes through a decision diagram over its bits.
 pub fn free(weaver: &mut Weaver, program: &FlatProgram, input: VarId, domain: &Domain, way: Way) {
     let mut copying = Copying { weaver, program, input, way, within: 0 };
     let start = Block::new(domain.ty, program.variable(input).bits, domain.ranges());
@@ -82,7 +82,7 @@ impl Copying<'_> {
         self.weaver.place(&name, false, PlaceRole::Copying(self.input, self.within))
     }
 
-    /// The two transitions that give a bit one value, whatever it was.
+    /// Adds the two transitions that give a bit one value, whatever its old value is.
     fn step(&mut self, (at, next): (PlaceId, PlaceId), bit: u32, value: bool, source: Option<&Source>) {
         let place: Bit = self.weaver.variable(self.input)[bit as usize];
         let variable = self.program.variable(self.input);

@@ -1,5 +1,6 @@
-//! `DIV x`, `MOD x`: long division of magnitudes. The current result becomes the remainder; from the highest position at
-//! which the divisor fits down to 0, it is taken away where it is not greater, and the quotient gets a 1 there.
+//! `DIV x`, `MOD x`: long division of magnitudes. The current result becomes the remainder; from the highest position
+//! at which the divisor fits down to 0, the divisor is subtracted where it is not greater, and the quotient gets a 1
+//! there.
 
 use std::cmp::Ordering;
 
@@ -17,17 +18,17 @@ use petril_lang::flat::{Hazard, Operand, Target};
 use petril_lang::semantics::Type;
 use petril_net::net::PlaceId;
 
-/// A division in the making.
+/// Division under construction.
 struct Division {
     ty: Type,
-    /// Whether the remainder is asked for.
+    /// Whether the result is the remainder (`MOD`).
     modulo: bool,
     result: Vec<Bit>,
-    /// The divisor as it was given.
+    /// Divisor as given.
     given: Vec<Wire>,
-    /// Its magnitude.
+    /// Magnitude of the divisor.
     divisor: Vec<Wire>,
-    /// The register that holds the magnitude, if one does.
+    /// Register that holds the magnitude; empty if none is needed.
     register: Vec<Bit>,
 }
 
@@ -60,14 +61,14 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, modulo: bool, negated: bool,
     division.finish(subnet, done);
 }
 
-/// Divides by a 0 that is known.
+/// Translates a division by a constant 0.
 fn by_zero(subnet: &mut Subnet<'_>, ty: Type) {
     let hazard = subnet.hazard(Hazard::DivisionByZero);
     subnet.step(subnet.here(), hazard, &[]);
     clear(subnet, hazard, subnet.next(), &subnet.result(ty.width));
 }
 
-/// The magnitude of a number that is known.
+/// Magnitude of a constant.
 fn magnitude(ty: Type, given: &[Wire]) -> Vec<Wire> {
     let pattern = given.iter().rev().fold(0, |pattern, wire| pattern << 1 | u64::from(wire.known() == Some(true)));
     let magnitude = ty.number(pattern).unsigned_abs();
@@ -75,7 +76,7 @@ fn magnitude(ty: Type, given: &[Wire]) -> Vec<Wire> {
 }
 
 impl Division {
-    /// The register takes the magnitude of the divisor.
+    /// Stores the magnitude of the divisor in the register.
     fn take_divisor(&self, subnet: &mut Subnet<'_>, from: PlaceId) -> PlaceId {
         let to = subnet.within();
         let Some(sign) = self.given.last().filter(|_| self.ty.is_signed()) else {
@@ -95,7 +96,7 @@ impl Division {
         to
     }
 
-    /// The current result becomes its magnitude; the mark says that it was negative.
+    /// Replaces the current result by its magnitude; the mark remembers that it was negative.
     fn take_dividend(&self, subnet: &mut Subnet<'_>, from: PlaceId) -> PlaceId {
         let (mark, sign) = (subnet.mark(), self.result[self.result.len() - 1]);
         let [negative, to] = [(); 2].map(|()| subnet.within());
@@ -105,19 +106,19 @@ impl Division {
         to
     }
 
-    /// The current result becomes the remainder, and the quotient is noted if it is asked for.
+    /// Replaces the current result by the remainder, and collects the quotient if it is the result.
     fn divide(&self, subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId) {
         #[derive(Clone, PartialEq, Eq, Hash)]
         enum State {
-            /// All bits of the divisor above this one are 0.
+            /// Bits of the divisor above this one are all 0.
             Leading(usize),
             Zero,
-            /// The divisor stands at `row`; it is compared from `bit` down.
+            /// Divisor at position `row`, compared from `bit` down.
             Compare {
                 row: usize,
                 bit: usize,
             },
-            /// It is taken away, from `bit` up; a carry is no borrow.
+            /// Divisor at position `row`, subtracted from `bit` up; a carry is no borrow.
             Subtract {
                 row: usize,
                 bit: usize,
@@ -127,7 +128,7 @@ impl Division {
         }
         let width = self.result.len();
         let quotient = subnet.register(Register::Quotient, if self.modulo { 0 } else { self.ty.width });
-        // What is left of the dividend is less than twice the divisor: of a divisor that is known, few bits are looked at.
+        // The rest of the dividend is less than twice the divisor: of a constant divisor, few bits are read.
         let known = self.divisor.iter().all(|wire| wire.known().is_some());
         let reach =
             self.divisor.iter().rposition(|wire| known && wire.known() == Some(true)).map_or(width, |top| top + 1);
@@ -161,7 +162,7 @@ impl Division {
                     if bit == highest(row) { below(row) } else { State::Subtract { row, bit: bit + 1, carry } }
                 };
                 let wire = self.divisor[bit].clone().complement();
-                // The first step notes the bit of the quotient.
+                // The first step sets the bit of the quotient.
                 let noted = quotient.get(row).filter(|_| bit == 0).map(|&bit| (bit, false, true));
                 if noted.is_none() && wire.known() == Some(carry) {
                     return Stage::Same(after(carry));
@@ -177,7 +178,7 @@ impl Division {
         });
     }
 
-    /// If the divisor is 0, so is the result. The divisor's register is 0 then.
+    /// Sets the result to 0 if the divisor is 0. The divisor's register is 0 then.
     fn after_zero(&self, subnet: &mut Subnet<'_>) {
         let Some(mut at) = subnet.met(Hazard::DivisionByZero) else { return };
         if self.ty.is_signed() {
@@ -188,7 +189,7 @@ impl Division {
         clear(subnet, at, subnet.next(), &self.result);
     }
 
-    /// The current result becomes what was asked for, with its sign; the registers become 0.
+    /// Replaces the current result by quotient or remainder, with its sign; the registers become 0.
     fn finish(&self, subnet: &mut Subnet<'_>, from: PlaceId) {
         let next = subnet.next();
         let mut steps: Vec<Step> = Vec::new();
@@ -209,8 +210,8 @@ impl Division {
         self.give_sign(subnet, signs);
     }
 
-    /// The remainder has the sign of the dividend, the quotient is negative if the signs differ. A positive quotient can be
-    /// too great by one.
+    /// Gives the result its sign: the remainder has that of the dividend, the quotient is negative if the signs differ.
+    /// A positive quotient can be too great by one.
     fn give_sign(&self, subnet: &mut Subnet<'_>, from: PlaceId) {
         let (mark, next) = (subnet.mark(), subnet.next());
         let negative = subnet.within();

@@ -1,31 +1,33 @@
-//! The values a free input can have.
+//! Domains: the values a free input can have.
 
 use std::collections::BTreeMap;
 
 use petril_lang::semantics::{Type, VarId};
 
-/// Some values of a type, as patterns in ascending order of their numbers. Never empty.
+/// Set of values of a type, as patterns in ascending order of their numbers. Never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Domain {
-    /// The type.
+    /// Type of the values.
     pub ty: Type,
     /// Disjoint ranges of numbers, ascending, both ends included, with a gap between neighbours.
     ranges: Vec<(i128, i128)>,
-    /// Whether the values stand for all of the type: the others can be told from them nowhere.
+    /// Whether the values represent all values of the type: the program cannot distinguish any other value from all of
+    /// them.
     for_all: bool,
 }
 
-/// The domains of free inputs. An input that is not listed has every value of its type.
+/// Domains of free inputs. An input that is not listed has every value of its type.
 pub type Domains = BTreeMap<VarId, Domain>;
 
 impl Domain {
-    /// Every value of a type.
+    /// Domain of every value of a type.
     #[must_use]
     pub fn all(ty: Type) -> Self {
         Self { ty, ranges: vec![(ty.least(), ty.greatest())], for_all: false }
     }
 
-    /// The numbers in any of these ranges (both ends included). `None` if there are none, or one is not of the type.
+    /// Domain of the numbers in any of these ranges (both ends included). `None` if there are none, or one is outside
+    /// the type.
     #[must_use]
     pub fn new(ty: Type, mut ranges: Vec<(i128, i128)>) -> Option<Self> {
         ranges.sort_unstable();
@@ -42,37 +44,38 @@ impl Domain {
         (!joined.is_empty()).then_some(Self { ty, ranges: joined, for_all: false })
     }
 
-    /// These values, standing for all of the type.
+    /// Marks the values as representatives of all values of the type.
     #[must_use]
     pub fn standing_for_all(self) -> Self {
         Self { for_all: true, ..self }
     }
 
-    /// Whether the values stand for all of the type: the others can be told from them nowhere.
+    /// Whether the values represent all values of the type: the program cannot distinguish any other value from all of
+    /// them.
     #[must_use]
     pub fn stands_for_all(&self) -> bool {
         self.for_all
     }
 
-    /// The ranges of numbers, ascending, both ends included.
+    /// Ranges of numbers, ascending, both ends included.
     #[must_use]
     pub fn ranges(&self) -> &[(i128, i128)] {
         &self.ranges
     }
 
-    /// How many values there are.
+    /// Number of values.
     #[must_use]
     pub fn size(&self) -> u128 {
         self.ranges.iter().map(|(from, to)| (to - from + 1) as u128).sum()
     }
 
-    /// Whether a number is one of them.
+    /// Whether a number is in the domain.
     #[must_use]
     pub fn contains(&self, number: i128) -> bool {
         self.ranges.iter().any(|&(from, to)| (from..=to).contains(&number))
     }
 
-    /// The values as patterns.
+    /// Iterator over the values as patterns.
     pub fn patterns(&self) -> impl Iterator<Item = u64> + Clone {
         let ty = self.ty;
         self.ranges.iter().flat_map(move |&(from, to)| (from..=to).map(move |number| ty.pattern(number)))

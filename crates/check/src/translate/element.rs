@@ -1,4 +1,4 @@
-//! Elements of arrays: every transition on an element reads the bits of the index that say which it is.
+//! Elements of arrays: every transition on an element reads the bits of the index that select it.
 
 use smallvec::smallvec;
 
@@ -8,7 +8,7 @@ use super::wire::{Wire, with};
 use petril_lang::flat::{Element, Target};
 use petril_lang::semantics::VarId;
 
-/// The elements that the index can choose, each with the bits of the index that choose it.
+/// Elements that the index can select, each with the bits of the index that select it.
 fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Changes)> {
     let index = subnet.variable(element.index);
     let value = |number: usize, bit: usize| number.checked_shr(bit as u32).unwrap_or(0) & 1 == 1;
@@ -20,7 +20,7 @@ fn choices(subnet: &Subnet<'_>, element: Element) -> Vec<(VarId, Changes)> {
     (0..element.length).filter(can_be).map(choice).collect()
 }
 
-/// A bit of the element that the index chooses. One that no element stores is 0, whatever the index is.
+/// Bit of the element that the index selects. A bit that no element stores is 0, whatever the index is.
 pub fn wire(subnet: &Subnet<'_>, element: Element, bit: u32) -> Wire {
     if element.all().all(|variable| subnet.variable(variable).len() <= bit as usize) {
         return Wire::fixed(false);
@@ -35,8 +35,8 @@ pub fn wire(subnet: &Subnet<'_>, element: Element, bit: u32) -> Wire {
     Wire(readings)
 }
 
-/// The bits that a target can be, for each position: each with the bits of the index that choose it. One that is not stored
-/// is none.
+/// Bits that a target can be, for each position: each with the bits of the index that select it, or `None` if the bit
+/// is not stored.
 pub fn targets(subnet: &Subnet<'_>, target: Target) -> Vec<Vec<(Option<Bit>, Changes)>> {
     let choices = match target {
         Target::Variable(variable) => vec![(variable, smallvec![])],

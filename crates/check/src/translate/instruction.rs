@@ -1,4 +1,4 @@
-//! The subnet of an instruction (*Compute* in the seed paper, section 3.3).
+//! Subnet of an instruction (*Compute* in the seed paper, section 3.3).
 
 use super::subnet::Subnet;
 use super::{add, bound, combine, compare, complement, convert, divide, jump, load, multiply, set_reset, shift, store};
@@ -33,7 +33,7 @@ fn function_of(subnet: &mut Subnet<'_>, function: Function, ty: Type, negated: b
     }
 }
 
-/// How many bits of the current result an instruction works on.
+/// Number of bits of the current result that an instruction works on.
 pub fn width(instruction: &Instruction) -> u32 {
     match *instruction {
         Instruction::Load { ty, .. }

@@ -1,4 +1,4 @@
-//! `JMP`, `JMPC`, `JMPCN`: the control token goes to the target's place or to the next line's.
+//! `JMP`, `JMPC`, `JMPCN`: the control token goes to the target's place or to that of the next line.
 
 use super::subnet::Subnet;
 use super::weaver::VALUES;

@@ -1,4 +1,4 @@
-//! `LD x`, `LDN x`: the current result takes the operand's value.
+//! `LD x`, `LDN x`: the current result takes the operand's value, complemented for `LDN`.
 
 use super::subnet::{Step, Subnet};
 use petril_lang::flat::Operand;

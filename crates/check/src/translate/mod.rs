@@ -1,10 +1,10 @@
-//! Flat code and plant to one system net (seed paper, sections 3 and 4).
+//! Translation of flat code and plant to one system net (seed paper, sections 3 and 4).
 //!
-//! A bit is two complementary places: `x=0` and `x=1` of a `BOOL`, `x.3=0` and `x.3=1` of what is wider. The current result
-//! `CR` has as many bits as the widest type of the program. Control is one token that walks `idle`, the copying of the
-//! inputs, `line_1` … `line_n`, `End`, and back to `idle`. Every instruction is a subnet between the control places of its
-//! line and the next; one file here for each family of instructions. What is wider than one bit goes from bit to bit,
-//! through control places within the line that remember a carry or the like.
+//! A bit is two complementary places: `x=0` and `x=1` of a `BOOL`, `x.3=0` and `x.3=1` of a wider type. The current
+//! result `CR` has as many bits as the widest type of the program. Control is one token that moves through `idle`, the
+//! copying of the inputs, `line_1` … `line_n`, `End`, and back to `idle`. Every instruction is a subnet between the
+//! control places of its line and the next, with one file for each family of instructions. Instructions on more than
+//! one bit go from bit to bit, through control places within the line that remember a carry or the like.
 
 mod add;
 mod bound;

@@ -1,5 +1,5 @@
-//! `MUL x`: shift and add, in the current result itself. Its bits are taken from the highest to the lowest; one that is 1
-//! becomes 0, and the operand is added from its position on. The bits above already are part of the product then.
+//! `MUL x`: shift and add, in the current result itself. Its bits are taken from the highest to the lowest; a 1 becomes
+//! 0, and the operand is added from its position on. The bits above are already part of the product then.
 
 use smallvec::smallvec;
 
@@ -47,7 +47,7 @@ pub fn translate(subnet: &mut Subnet<'_>, ty: Type, negated: bool, operand: Oper
     finish(subnet, done, next, ty, indexed, mark);
 }
 
-/// The operand's register, and the place where it holds the operand.
+/// Copies the operand to its register; returns the place after that, and the register.
 fn copy(subnet: &mut Subnet<'_>, from: PlaceId, ty: Type, wires: &[Wire]) -> (PlaceId, Vec<Wire>) {
     let to = subnet.within();
     let register = subnet.register(Register::Operand, ty.width);
@@ -55,7 +55,7 @@ fn copy(subnet: &mut Subnet<'_>, from: PlaceId, ty: Type, wires: &[Wire]) -> (Pl
     (to, register.into_iter().map(Wire::of).collect())
 }
 
-/// Multiplies by a number: what is too great is known before, and a power of two only shifts.
+/// Multiplies by a constant: an overflow is known before, and a power of two only shifts.
 fn constant(subnet: &mut Subnet<'_>, ty: Type, pattern: u64, wires: &[Wire]) {
     let (next, result, factor) = (subnet.next(), subnet.result(ty.width), ty.number(pattern));
     let mut at = subnet.here();
@@ -81,8 +81,8 @@ fn constant(subnet: &mut Subnet<'_>, ty: Type, pattern: u64, wires: &[Wire]) {
     }
 }
 
-/// The current result becomes its magnitude, and the register of the operand takes the operand, negated if the current
-/// result was negative. It has one bit more than the type. The bits of the register are what is to be added.
+/// Replaces the current result by its magnitude, and stores the operand in its register, negated if the current result
+/// was negative. The register has one bit more than the type. Returns its bits, the summand.
 fn magnitude(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit], wires: &[Wire]) -> Vec<Wire> {
     let register = subnet.register(Register::Operand, wires.len() as u32 + 1);
     let sign = wires.last().cloned();
@@ -98,16 +98,16 @@ fn magnitude(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit]
     register.into_iter().map(Wire::of).collect()
 }
 
-/// Marks an overflow if the operand, shifted to the highest 1 of the current result, is too long for the type. If not, no
-/// summand is too long.
+/// Marks an overflow if the operand, shifted to the highest 1 of the current result, is too long for the type. If it is
+/// not, no summand is.
 fn fits(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit], added: &[Wire], signed: bool) {
     #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
-        /// All bits of the current result above this one are 0.
+        /// Bits of the current result above this one are all 0.
         Leading(usize),
-        /// All bits of the operand from this one on should have the same value.
+        /// Bits of the operand from this one on should all have the same value.
         Same(usize),
-        /// They should have this value.
+        /// Bits of the operand from this one on should all have this value.
         All(usize, bool),
         TooLong,
         Done,
@@ -129,7 +129,7 @@ fn fits(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, result: &[Bit], add
     });
 }
 
-/// The sum of the operand at the positions of all bits of the current result that are 1. An overflow is marked.
+/// Adds up the operand at the positions of all bits of the current result that are 1. An overflow is marked.
 fn add_up(
     subnet: &mut Subnet<'_>,
     from: PlaceId,
@@ -143,7 +143,7 @@ fn add_up(
     enum State {
         /// Before this bit of the current result.
         Row(usize),
-        /// The operand stands at `row`; its bit is added with a carry.
+        /// Operand at position `row`, whose bit is added with a carry.
         Add {
             row: usize,
             bit: usize,
@@ -182,7 +182,7 @@ fn add_up(
     });
 }
 
-/// The same changes, and the mark is set, whatever it was.
+/// Changes that also set the mark, whatever its old value is.
 fn marked(changes: &[Change], mark: Bit) -> [Changes; 2] {
     VALUES.map(|old| {
         let mut changes = Changes::from_slice(changes);
@@ -191,7 +191,7 @@ fn marked(changes: &[Change], mark: Bit) -> [Changes; 2] {
     })
 }
 
-/// Sets the registers back to 0; an overflow that was marked goes through its place.
+/// Resets the registers to 0; a marked overflow goes through the place of the hazard.
 fn finish(subnet: &mut Subnet<'_>, from: PlaceId, next: PlaceId, ty: Type, indexed: bool, mark: Option<Bit>) {
     let copied = if ty.is_signed() { ty.width + 1 } else { ty.width * u32::from(indexed) };
     let register = subnet.register(Register::Operand, copied);

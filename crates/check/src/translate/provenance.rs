@@ -1,26 +1,26 @@
-//! What each node of a system net stands for: the way back from net to source.
+//! Provenance of the nodes of a system net: what each stands for in the source.
 
 use std::fmt;
 
 use petril_lang::flat::Hazard;
 use petril_lang::semantics::VarId;
 
-/// The three parts of a system net (seed paper, table 2).
+/// Part of a system net (seed paper, table 2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// The program.
+    /// User program.
     User,
-    /// The PLC's cycle around it.
+    /// Cycle of the PLC around the program: the system program.
     System,
-    /// The environment.
+    /// Environment.
     Plant,
 }
 
 impl Part {
-    /// All parts in the order of the paper's table.
+    /// Every part, in the order of the paper's table.
     pub const ALL: [Part; 3] = [Part::User, Part::System, Part::Plant];
 
-    /// The part's name in reports.
+    /// Name of the part in reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -31,54 +31,54 @@ impl Part {
     }
 }
 
-/// What a place stands for.
+/// Role of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PlaceRole {
-    /// The bit of the variable has this value.
+    /// Bit of a variable: marked while the bit has this value.
     Bit {
-        /// The variable.
+        /// Variable of the bit.
         variable: VarId,
         /// Position of the bit, from 0, the lowest.
         bit: u32,
-        /// The value.
+        /// Value of the bit.
         value: bool,
     },
-    /// The bit of the current result has this value.
+    /// Bit of the current result: marked while the bit has this value.
     Result {
         /// Position of the bit, from 0, the lowest.
         bit: u32,
-        /// The value.
+        /// Value of the bit.
         value: bool,
     },
-    /// The bit of an auxiliary register has this value. Between two lines all of them are 0.
+    /// Bit of an auxiliary register: marked while the bit has this value. Between two lines all these bits are 0.
     Register {
-        /// The register.
+        /// Register of the bit.
         register: Register,
         /// Position of the bit, from 0, the lowest.
         bit: u32,
-        /// The value.
+        /// Value of the bit.
         value: bool,
     },
-    /// Control is before this line (from 0); the line behind the last is `End`.
+    /// Control place before this line (from 0); the line after the last is `End`.
     Line(usize),
-    /// Control is within this line (from 0), at one of its places, counted from 1.
+    /// Control place within this line (from 0), by its number in the line, from 1.
     Within(usize, u32),
-    /// Control is within this line (from 0), and the hazard has just happened there.
+    /// Control place within this line (from 0) that is reached when the hazard has happened there.
     Hazard(usize, Hazard),
-    /// Control is between two scans.
+    /// Control place between two scans.
     Idle,
-    /// Control is before the copying of this input.
+    /// Control place before the copying of this input.
     Copy(VarId),
-    /// Control is within the copying of this input, at one of its places, counted from 1.
+    /// Control place within the copying of this input, by its number there, from 1.
     Copying(VarId, u32),
-    /// The plant component (counted over all plants) may move.
+    /// Blocking place: marked while the plant component (counted over all plants) may move.
     Blocking(usize),
-    /// A place of the plant component.
+    /// Place of the plant component (counted over all plants).
     Plant(usize),
 }
 
 impl PlaceRole {
-    /// The part the place belongs to.
+    /// Part that the place belongs to.
     #[must_use]
     pub fn part(self) -> Part {
         match self {
@@ -88,27 +88,27 @@ impl PlaceRole {
         }
     }
 
-    /// Whether the one token of control can be there.
+    /// Whether the place is a control place, one of those that share the single control token.
     #[must_use]
     pub fn is_control(self) -> bool {
         !self.is_bit() && !matches!(self, Self::Blocking(_) | Self::Plant(_))
     }
 
-    /// Whether it is one of the two places of a bit.
+    /// Whether the place is one of the two of a bit.
     #[must_use]
     pub fn is_bit(self) -> bool {
         matches!(self, Self::Bit { .. } | Self::Result { .. } | Self::Register { .. })
     }
 }
 
-/// Bits that multiplication and division need beside the current result. A net has those that its program needs.
+/// Auxiliary register of multiplication and division. A net has only those that its program needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Register {
-    /// The right operand, or its magnitude.
+    /// Right operand, or its magnitude.
     Operand,
-    /// The bits of a quotient found so far.
+    /// Bits of a quotient found so far.
     Quotient,
-    /// One bit: a multiplication has overflowed, a dividend was negative.
+    /// Single bit: a multiplication has overflowed, or a dividend was negative.
     Mark,
 }
 
@@ -122,7 +122,7 @@ impl fmt::Display for Register {
     }
 }
 
-/// What a transition stands for.
+/// Role of a transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TransitionRole {
     /// Executes the instruction of this line (from 0), or a step of it.
@@ -131,26 +131,26 @@ pub enum TransitionRole {
     Block,
     /// Copies a bit of the external value of this input to the variable.
     Copy {
-        /// The input.
+        /// Input.
         variable: VarId,
         /// Position of the bit, from 0, the lowest.
         bit: u32,
-        /// Its new value.
+        /// New value of the bit.
         value: bool,
     },
     /// Ends a scan: lets the plant move.
     Unblock,
-    /// A transition of the plant component (counted over all plants): its position there.
+    /// Transition of a plant component.
     Plant {
-        /// The component.
+        /// Component, counted over all plants.
         component: usize,
-        /// The transition's position in [`super::plant::Component::transitions`].
+        /// Position of the transition in [`super::plant::Component::transitions`].
         transition: usize,
     },
 }
 
 impl TransitionRole {
-    /// The part the transition belongs to.
+    /// Part that the transition belongs to.
     #[must_use]
     pub fn part(self) -> Part {
         match self {

@@ -1,4 +1,4 @@
-//! What multiplication and division do with whole registers: copying, negating, setting to 0.
+//! Operations on whole registers for multiplication and division: copying, negating, setting to 0.
 
 use smallvec::smallvec;
 

@@ -1,4 +1,4 @@
-//! `S x`, `R x`: the variable becomes 1 or 0 if the current result is 1, and keeps its value if it is 0.
+//! `S x`, `R x`: sets the variable to 1 or 0 if the current result is 1, and leaves it if it is 0.
 
 use smallvec::smallvec;
 

@@ -1,4 +1,5 @@
-//! `SHL x`, `SHR x`, `ROL x`, `ROR x`: by a constant at once, by a variable in a stage for each bit of the distance.
+//! `SHL x`, `SHR x`, `ROL x`, `ROR x`: by a constant at once, by a variable in one stage for each bit of the distance
+//! (barrel shifter).
 
 use smallvec::smallvec;
 
@@ -11,7 +12,7 @@ use petril_lang::flat::{Function, Operand, Target};
 use petril_lang::semantics::Type;
 use petril_net::net::PlaceId;
 
-/// The operand may be of any type; complemented it has as many bits as the current result.
+/// Translates a shift. The operand may be of any type; complemented it has as many bits as the current result.
 pub fn translate(subnet: &mut Subnet<'_>, function: Function, ty: Type, negated: bool, operand: Operand) {
     let width = if negated { ty.width } else { operand_width(subnet, operand) };
     let distance: Vec<Wire> = (0..width).map(|bit| subnet.wire(operand, bit)).collect();
@@ -35,7 +36,7 @@ fn by(subnet: &mut Subnet<'_>, function: Function, ty: Type, mut distance: Vec<W
     let stages = ty.width.trailing_zeros() as usize;
     let mut far = distance.split_off(stages.min(distance.len()));
     if rotates(function) {
-        // Widths are powers of two, so what is left is the distance modulo the width.
+        // Widths are powers of two, so the remaining bits are the distance modulo the width.
         far.clear();
     }
     far.retain(|wire| wire.known() != Some(false));
@@ -74,7 +75,7 @@ fn rotates(function: Function) -> bool {
     matches!(function, Function::Rol | Function::Ror)
 }
 
-/// Shifts by a distance that is known. Those that are longer than the bits leave 0.
+/// Shifts by a constant distance. Distances of at least the width leave 0.
 pub fn once(subnet: &mut Subnet<'_>, function: Function, from: PlaceId, to: PlaceId, bits: &[Bit], distance: usize) {
     let width = bits.len();
     match function {
@@ -90,7 +91,7 @@ pub fn once(subnet: &mut Subnet<'_>, function: Function, from: PlaceId, to: Plac
                 };
                 source.map_or(Wire::fixed(false), |source| Wire::of(bits[source]))
             };
-            // What is read must not have been written before.
+            // A bit must be read before it is written.
             let up = 0..width;
             let order: Vec<usize> = if function == Function::Shl { up.rev().collect() } else { up.collect() };
             let steps: Vec<Step> = order.into_iter().map(|position| source(position).assign(bits[position])).collect();
@@ -99,17 +100,17 @@ pub fn once(subnet: &mut Subnet<'_>, function: Function, from: PlaceId, to: Plac
     }
 }
 
-/// Rotates to the left. Each cycle of positions is gone around once, control holding the value that comes next.
+/// Rotates to the left. Each cycle of positions is passed through once, while control holds the next value.
 fn rotate(subnet: &mut Subnet<'_>, from: PlaceId, to: PlaceId, bits: &[Bit], distance: usize) {
     #[derive(Clone, PartialEq, Eq, Hash)]
     enum State {
         /// Before the cycle that begins at this position.
         Cycle(usize),
-        /// In a cycle, with the value to be put at a position.
+        /// In a cycle, with the value to be stored at a position.
         Put { cycle: usize, position: usize, value: bool },
     }
     let width = bits.len();
-    // The greatest common divisor of both, since widths are powers of two.
+    // The greatest common divisor of distance and width, since widths are powers of two.
     let cycles = 1 << (distance | width).trailing_zeros();
     subnet.walk(from, State::Cycle(0), |_, state| match *state {
         State::Cycle(cycle) if cycle == cycles || cycles == width => Stage::Leave(to),

@@ -1,4 +1,4 @@
-//! `ST x`, `STN x`: the variable takes the value of the current result.
+//! `ST x`, `STN x`: the variable takes the value of the current result, complemented for `STN`.
 
 use smallvec::smallvec;
 

@@ -1,4 +1,4 @@
-//! Program, PLC cycle and plant as one net (seed paper, figures 7, 8, 10 and 11).
+//! Composition of program, PLC cycle and plant in one net (seed paper, figures 7, 8, 10 and 11).
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -15,31 +15,31 @@ use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 use petril_net::net::{Arcs, Net, PlaceId, TransitionId};
 
-/// A program in its plant, and the net of both.
+/// Program in its plant, with the net of both.
 #[derive(Clone, Debug)]
 pub struct System {
-    /// The program.
+    /// Program as flat code.
     pub program: FlatProgram,
-    /// Its environment. Inputs no plant drives are free: they have any value in any scan.
+    /// Environment of the program. Inputs that no plant drives are free: they have any value in any scan.
     pub plant: Plant,
-    /// The values of free inputs, where they are not all of their type.
+    /// Domains of free inputs, where they are not the whole type.
     pub domains: Domains,
-    /// The composed net, safe by construction.
+    /// Composed net, safe by construction.
     pub net: Net,
-    /// What each place stands for.
+    /// Role of each place.
     pub places: Vec<PlaceRole>,
-    /// What each transition stands for.
+    /// Role of each transition.
     pub transitions: Vec<TransitionRole>,
-    /// The place of each line, that of `End` the last.
+    /// Control place of each line, that of `End` the last.
     lines: Vec<PlaceId>,
-    /// The position of the first place made for each line; last, of the first one made for the PLC's cycle.
+    /// Position of the first place added for each line; last, of the first one added for the PLC's cycle.
     within: Vec<usize>,
-    /// The bits of each variable.
+    /// Bits of each variable.
     variables: Vec<Vec<Bit>>,
-    /// The bits of the current result.
+    /// Bits of the current result.
     result: Vec<Bit>,
-    /// For each place, the transitions that move control from it; last, those that do not move control. The lists are built
-    /// when first asked for.
+    /// For each place, the transitions that move control from it; last, those that do not move control. Built on first
+    /// use.
     moves: OnceLock<Rows<TransitionId>>,
 }
 
@@ -68,8 +68,8 @@ impl System {
         Self { program, plant, domains, net, places, transitions, lines, within, variables, result, moves }
     }
 
-    /// A program and its plant for those who run scans and ask for nothing else: the net, which may take longer than thousands
-    /// of scans, is empty.
+    /// Combines a program and its plant without their net, which is left empty: for runs of scans only, thousands of
+    /// which may take less time than the net.
     #[must_use]
     pub fn without_net(program: FlatProgram, plant: Plant, mut domains: Domains) -> Self {
         declared_domains(&program, &plant, &mut domains);
@@ -78,8 +78,8 @@ impl System {
         Self { program, plant, domains, net, places, transitions, lines, within, variables, result, moves }
     }
 
-    /// The place of a role that only one place has, if there is one. Not every line has a place for each of its hazards:
-    /// none if it cannot happen there.
+    /// Place with a role that only one place can have; `None` if no place has it, such as a hazard that cannot happen
+    /// in the line.
     #[must_use]
     pub fn find(&self, role: PlaceRole) -> Option<PlaceId> {
         let among = |mut places: Range<usize>| places.find(|&place| self.places[place] == role).map(PlaceId::at);
@@ -97,35 +97,35 @@ impl System {
         }
     }
 
-    /// The value of a variable where `is_marked` says which places have a token. `None` if not exactly one place of each of
-    /// its bits is marked.
+    /// Value of a variable in a marking, given by `is_marked`. `None` unless exactly one place of each of its bits is
+    /// marked.
     pub fn value(&self, variable: VarId, is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
         pattern(&self.variables[variable.0], is_marked)
     }
 
-    /// The value of the lowest `width` bits of the current result; see [`System::value`].
+    /// Value of the lowest `width` bits of the current result; see [`System::value`].
     pub fn result(&self, width: u32, is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
         pattern(&self.result[..width as usize], is_marked)
     }
 
-    /// How many bits the current result has: as many as the widest type the program works with.
+    /// Number of bits of the current result: that of the widest type the program works with.
     #[must_use]
     pub fn result_width(&self) -> u32 {
         self.result.len() as u32
     }
 
-    /// The places for 0 and 1 of each bit that is stored of a variable, from the lowest.
+    /// Places for 0 and 1 of each stored bit of a variable, from the lowest.
     pub fn bits(&self, variable: VarId) -> impl ExactSizeIterator<Item = [PlaceId; 2]> {
         self.variables[variable.0].iter().map(|bit| bit.places())
     }
 
-    /// The transitions that take the token of control from a place, or read it there: a jump to its own line.
+    /// Transitions that take the control token from a place, or read it there: a jump to its own line.
     #[must_use]
     pub fn moves(&self, control: PlaceId) -> &[TransitionId] {
         &self.all_moves()[control.index()]
     }
 
-    /// The transitions that have nothing to do with control: the plant's.
+    /// Transitions that do not move control: those of the plant.
     #[must_use]
     pub fn plant_moves(&self) -> &[TransitionId] {
         &self.all_moves()[self.places.len()]
@@ -139,16 +139,16 @@ impl System {
         self.moves.get_or_init(|| Rows::group(self.places.len() + 1, self.net.transition_ids().map(from)))
     }
 
-    /// The place of a role that only one place has.
+    /// Place with a role that only one place can have.
     ///
     /// # Panics
-    /// If there is none, as for a line the program does not have.
+    /// If no place has the role, as for a line that the program does not have.
     #[must_use]
     pub fn place(&self, role: PlaceRole) -> PlaceId {
         self.find(role).expect("only roles that have a place are asked for")
     }
 
-    /// How many places and transitions belong to a part.
+    /// Numbers of places and transitions of a part.
     #[must_use]
     pub fn size(&self, part: Part) -> (usize, usize) {
         let places = self.places.iter().filter(|role| role.part() == part).count();
@@ -156,24 +156,24 @@ impl System {
         (places, transitions)
     }
 
-    /// The inputs no plant drives.
+    /// Inputs that no plant drives.
     pub fn free_inputs(&self) -> impl Iterator<Item = VarId> {
         self.program.with_role(Role::Input).filter(|&input| self.plant.driver(input).is_none())
     }
 
-    /// The values of a free input.
+    /// Domain of a free input.
     #[must_use]
     pub fn domain(&self, input: VarId) -> Domain {
         self.domains.get(&input).cloned().unwrap_or_else(|| Domain::all(self.program.variable(input).ty))
     }
 
-    /// The transitions of a role.
+    /// Transitions with a role.
     pub fn transitions_of(&self, role: TransitionRole) -> impl Iterator<Item = TransitionId> {
         self.net.transition_ids().filter(move |id| self.transitions[id.index()] == role)
     }
 }
 
-/// The value of some bits, from the lowest.
+/// Value of some bits, from the lowest.
 fn pattern(bits: &[Bit], is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
     bits.iter().enumerate().try_fold(0, |pattern, (position, bit)| {
         let one = is_marked(bit.place(true));
@@ -181,7 +181,7 @@ fn pattern(bits: &[Bit], is_marked: impl Fn(PlaceId) -> bool) -> Option<u64> {
     })
 }
 
-/// The bits of the program and its control places, one for each line and `End`.
+/// Adds the bits of the program and its control places, one for each line and `End`; returns the control places.
 fn user_places(weaver: &mut Weaver, program: &FlatProgram) -> Vec<PlaceId> {
     program.variables.iter().for_each(|variable| weaver.add_variable(variable));
     // An apostrophe is in no IL name, so this one is free if `CR` is not.
@@ -196,8 +196,8 @@ fn user_places(weaver: &mut Weaver, program: &FlatProgram) -> Vec<PlaceId> {
         .collect()
 }
 
-/// The PLC's cycle: `block` stops the plant, the inputs are copied one after another, the program runs from `begin` to
-/// `end`, `unblock` lets the plant move again.
+/// Adds the PLC's cycle: `block` stops the plant, the inputs are copied one after another, the program runs from
+/// `begin` to `end`, `unblock` lets the plant move again.
 fn system_program(
     weaver: &mut Weaver,
     program: &FlatProgram,
@@ -240,7 +240,7 @@ fn system_program(
     }
 }
 
-/// The places of a component that give an input its external value.
+/// Places of a component that give an input its external value.
 fn sources(component: &Component, places: &[PlaceId], input: VarId) -> Vec<Source> {
     let giving = component.places.iter().zip(places);
     giving
@@ -251,7 +251,7 @@ fn sources(component: &Component, places: &[PlaceId], input: VarId) -> Vec<Sourc
         .collect()
 }
 
-/// Free inputs without a domain have the values that their declarations allow.
+/// Adds domains for free inputs that have none: the values that their declarations allow.
 fn declared_domains(program: &FlatProgram, plant: &Plant, domains: &mut Domains) {
     for (&input, restriction) in &program.restrictions {
         let variable = program.variable(input);

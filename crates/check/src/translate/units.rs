@@ -1,4 +1,5 @@
-//! Which places of a system net are never marked together: by construction, so that other tools need not find out.
+//! Units of a system net (NUPN): sets of places that are never marked together, by construction, so that other tools
+//! need not compute them.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,15 +9,15 @@ use super::system::System;
 use petril_net::net::{PlaceId, Units};
 
 impl System {
-    /// The units of the net: control, each bit, each permission to move, and the plant's components, split where several of
-    /// their places can be marked. All are safe.
+    /// Units of the net: control, each bit, each blocking place, and the plant's components, split where several of
+    /// their places can be marked. All units are safe.
     #[must_use]
     pub fn units(&self) -> Units {
         let of = |is_wanted: &dyn Fn(PlaceRole) -> bool| -> Vec<PlaceId> {
             self.net.place_ids().filter(|place| is_wanted(self.places[place.index()])).collect()
         };
         let mut units = vec![of(&PlaceRole::is_control)];
-        // The two places of a bit follow each other.
+        // The two places of a bit have consecutive ids.
         units.extend(of(&PlaceRole::is_bit).chunks(2).map(<[PlaceId]>::to_vec));
         units.extend(of(&|role| matches!(role, PlaceRole::Blocking(_))).into_iter().map(|place| vec![place]));
         let mut members = vec![Vec::new(); self.plant.components.len()];
@@ -33,8 +34,8 @@ impl System {
     }
 }
 
-/// The places of a component in groups of which no reachable marking has two. The markings are known, whatever the outputs
-/// are. Each place goes to the first group it fits in.
+/// Groups of places of a component of which no reachable marking, for any values of the outputs, has two. Greedy: each
+/// place goes to the first group it fits in.
 fn exclusive(component: &Component) -> Vec<Vec<usize>> {
     let count = component.places.len();
     let mut together = vec![FixedBitSet::with_capacity(count); count];

@@ -1,17 +1,18 @@
-//! Plant places named by a valuation, like `S1=1,level=-5`: while the place is marked, these variables have these values.
+//! Plant places named by a valuation, like `S1=1,level=-5`: while the place is marked, these variables have these
+//! values.
 
-/// A variable and its value, as they are written.
+/// Variable and value, as they are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Assignment<'a> {
-    /// All of it, as in `level = -5`.
+    /// Whole text, as in `level = -5`.
     pub text: &'a str,
-    /// The variable.
+    /// Name of the variable.
     pub variable: &'a str,
-    /// The value.
+    /// Value of the variable.
     pub value: Value,
 }
 
-/// A value as it is written.
+/// Value as it is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// `TRUE`, `FALSE`
@@ -20,11 +21,11 @@ pub enum Value {
     Number(i128),
 }
 
-/// Reads a name as a valuation. `None` if it is none: an internal place of the plant. Blanks and one pair of braces
+/// Parses a name as a valuation. `None` if it is not one: an internal place of the plant. Blanks and one pair of braces
 /// around the whole do not count.
 ///
 /// # Errors
-/// The piece that is no `name=value`.
+/// The piece that is not of the form `name=value`.
 pub fn parse(name: &str) -> Option<Result<Vec<Assignment<'_>>, &str>> {
     let name = name.trim();
     let name = name.strip_prefix('{').and_then(|name| name.strip_suffix('}')).unwrap_or(name);
@@ -42,7 +43,7 @@ fn assignment(piece: &str) -> Result<Assignment<'_>, &str> {
     Ok(Assignment { text, variable: variable.trim(), value })
 }
 
-/// An integer literal (IEC 61131-3, B.1.2.1): with a sign, in base 2, 8, 10 or 16, underscores between digits.
+/// Parses an integer literal (IEC 61131-3, B.1.2.1): with a sign, in base 2, 8, 10 or 16, underscores between digits.
 fn number(text: &str) -> Option<i128> {
     let (negative, text) = match text.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -52,7 +53,7 @@ fn number(text: &str) -> Option<i128> {
         Some((base, digits)) => (base.parse().ok().filter(|base| [2, 8, 16].contains(base))?, digits),
         None => (10, text),
     };
-    // What is longer than any type has no value anyway.
+    // A number longer than any type has no value anyway.
     let is_digit = |c: char| c.is_digit(base) || c == '_';
     if digits.len() > 80 || !digits.starts_with(|c: char| c.is_digit(base)) || !digits.chars().all(is_digit) {
         return None;

@@ -1,4 +1,4 @@
-//! Automata over bits: control that remembers something, like a carry, while it goes from bit to bit.
+//! Automata over bits: control that remembers a state, like a carry, while it goes from bit to bit.
 
 use std::collections::VecDeque;
 use std::hash::Hash;
@@ -9,19 +9,19 @@ use super::subnet::Subnet;
 use super::weaver::Changes;
 use petril_net::net::PlaceId;
 
-/// What an automaton does in a state.
+/// Action of an automaton in a state.
 pub enum Stage<S> {
-    /// It is done, and control goes on there.
+    /// Leave the automaton; control goes on at this place.
     Leave(PlaceId),
-    /// Nothing; it is in this state already.
+    /// Be in this state instead, without a transition.
     Same(S),
-    /// It goes on in a state for each alternative of bits.
+    /// Go on in a state for each alternative of bits.
     Branch(Vec<(Changes, S)>),
 }
 
 impl Subnet<'_> {
-    /// Adds a place for each state that the automaton can come to from `start`, which is `from`, and a transition for each
-    /// alternative. `rule` says what happens in a state; it is asked at least once for each.
+    /// Adds the subnet of an automaton: a place for each state reachable from `start`, whose place is `from`, and a
+    /// transition for each alternative. `rule` gives the action in a state, and is called at least once for each.
     pub fn walk<S: Eq + Hash + Clone>(
         &mut self,
         from: PlaceId,
@@ -56,7 +56,7 @@ impl Subnet<'_> {
         }
     }
 
-    /// Follows a state to one where something happens.
+    /// Follows [`Stage::Same`] to a state with another action.
     fn settle<S>(&mut self, mut state: S, rule: &mut impl FnMut(&mut Self, &S) -> Stage<S>) -> (S, Stage<S>) {
         loop {
             match rule(self, &state) {

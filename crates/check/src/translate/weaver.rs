@@ -1,4 +1,4 @@
-//! What nets are woven from: bits, places and transitions, each with what it stands for.
+//! Building blocks of system nets: bits, places and transitions, each with its role.
 
 use std::collections::BTreeMap;
 
@@ -9,35 +9,35 @@ use petril_lang::flat::Variable;
 use petril_lang::semantics::VarId;
 use petril_net::net::{Arcs, Builder, Net, PlaceId, TransitionId};
 
-/// Both values of a bit.
+/// Values of a bit.
 pub const VALUES: [bool; 2] = [false, true];
 
-/// Two complementary places, exactly one of them marked.
+/// Bit: two complementary places, exactly one of them marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bit {
-    /// The place for 0; that for 1 is the next one.
+    /// Place for 0; that for 1 is the next one.
     zero: PlaceId,
 }
 
 impl Bit {
-    /// The place that is marked while the bit has this value.
+    /// Place that is marked while the bit has this value.
     pub fn place(self, value: bool) -> PlaceId {
         PlaceId::at(self.zero.index() + usize::from(value))
     }
 
-    /// Both places, that for 0 first.
+    /// Places for 0 and 1.
     pub fn places(self) -> [PlaceId; 2] {
         VALUES.map(|value| self.place(value))
     }
 }
 
-/// One bit in a step: its value before and after. A bit that keeps its value is only read.
+/// Change of a bit in a step: its value before and after. A bit that keeps its value is only read.
 pub type Change = (Bit, bool, bool);
 
-/// What one transition does with bits. Most change one and read another.
+/// Changes of bits by a transition. Most change one bit and read another.
 pub type Changes = SmallVec<[Change; 4]>;
 
-/// Builds a net and keeps what each node stands for.
+/// Builder of a net that records the role of each node.
 pub struct Weaver {
     builder: Builder,
     place_roles: Vec<PlaceRole>,
@@ -47,14 +47,14 @@ pub struct Weaver {
     registers: BTreeMap<(Register, u32), Bit>,
 }
 
-/// A finished net.
+/// Finished net with the roles of its nodes.
 pub struct Woven {
     pub net: Net,
     pub places: Vec<PlaceRole>,
     pub transitions: Vec<TransitionRole>,
-    /// The bits of each variable, from the lowest.
+    /// Bits of each variable, from the lowest.
     pub variables: Vec<Vec<Bit>>,
-    /// The bits of the current result, from the lowest.
+    /// Bits of the current result, from the lowest.
     pub result: Vec<Bit>,
 }
 
@@ -75,7 +75,7 @@ impl Weaver {
         self.builder.place(name, marked)
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub fn place_count(&self) -> usize {
         self.place_roles.len()
     }
@@ -89,7 +89,7 @@ impl Weaver {
         self.builder.transition(name, arcs)
     }
 
-    /// Adds the bits of the next variable: as many as are stored. One that is a `BOOL` has no number in its name.
+    /// Adds the stored bits of the next variable. The bit of a `BOOL` has no number in its name.
     pub fn add_variable(&mut self, variable: &Variable) {
         let id = VarId(self.variables.len());
         let name = |bit| if variable.ty.is_bool() { variable.name.clone() } else { format!("{}.{bit}", variable.name) };
@@ -117,17 +117,17 @@ impl Weaver {
         Bit { zero }
     }
 
-    /// The bits of a variable, from the lowest; those above are 0.
+    /// Bits of a variable, from the lowest; those above are 0.
     pub fn variable(&self, variable: VarId) -> &[Bit] {
         &self.variables[variable.0]
     }
 
-    /// The bits of the current result, from the lowest.
+    /// Bits of the current result, from the lowest.
     pub fn result(&self) -> &[Bit] {
         &self.result
     }
 
-    /// A bit of an auxiliary register, made when it is first asked for. An apostrophe is in no name of a variable.
+    /// Bit of an auxiliary register, added on first use. An apostrophe is in no name of a variable.
     pub fn register(&mut self, register: Register, bit: u32) -> Bit {
         if let Some(&known) = self.registers.get(&(register, bit)) {
             return known;
@@ -138,7 +138,7 @@ impl Weaver {
         new
     }
 
-    /// The finished net.
+    /// Builds the net.
     pub fn build(self) -> Woven {
         Woven {
             net: self.builder.build(),

@@ -1,4 +1,4 @@
-//! The bits of an operand, each as the ways in which it can have a value.
+//! Bits of an operand, each as the alternatives for its value.
 
 use smallvec::smallvec;
 
@@ -8,22 +8,22 @@ use super::weaver::{Bit, Change, Changes, VALUES};
 use petril_lang::flat::{Operand, Target};
 use petril_lang::semantics::Type;
 
-/// A bit that is read: what it can be, each time with the bits that must have the values they then have.
+/// Bit that is read, as alternatives: each is a value of the bit, with the bits that must have certain values for it.
 #[derive(Clone, Debug)]
 pub struct Wire(pub Vec<(bool, Changes)>);
 
 impl Wire {
-    /// A bit that is known.
+    /// Constant bit.
     pub fn fixed(value: bool) -> Self {
         Self(vec![(value, smallvec![])])
     }
 
-    /// A bit of the net.
+    /// Bit of the net.
     pub fn of(bit: Bit) -> Self {
         Self(VALUES.map(|value| (value, smallvec![(bit, value, value)])).into())
     }
 
-    /// The value, if it is known.
+    /// Value of a constant bit.
     pub fn known(&self) -> Option<bool> {
         match self.0.as_slice() {
             [(value, given)] if given.is_empty() => Some(*value),
@@ -31,13 +31,13 @@ impl Wire {
         }
     }
 
-    /// The bit of the other value.
+    /// Complement of the bit.
     pub fn complement(mut self) -> Self {
         self.0.iter_mut().for_each(|(value, _)| *value = !*value);
         self
     }
 
-    /// The step that gives a bit this value.
+    /// Step that assigns this bit to a bit of the net.
     pub fn assign(&self, target: Bit) -> Step {
         let mut step = Vec::with_capacity(2 * self.0.len());
         for (value, given) in &self.0 {
@@ -48,13 +48,13 @@ impl Wire {
         step
     }
 
-    /// What a state goes on to for each value.
+    /// Alternatives of a step that reads the bit: `to` gives the next state for each value.
     pub fn branch<S>(&self, to: impl Fn(bool) -> S) -> Vec<(Changes, S)> {
         self.0.iter().map(|(value, given)| (given.clone(), to(*value))).collect()
     }
 }
 
-/// A change under conditions.
+/// Change under conditions.
 pub fn with(change: Change, given: &[Change]) -> Changes {
     let mut changes: Changes = smallvec![change];
     changes.extend_from_slice(given);
@@ -62,13 +62,13 @@ pub fn with(change: Change, given: &[Change]) -> Changes {
 }
 
 impl Subnet<'_> {
-    /// The bits of an operand of a type, complemented if `negated`.
+    /// Bits of an operand of a type, complemented if `negated`.
     pub fn wires(&self, ty: Type, negated: bool, operand: Operand) -> Vec<Wire> {
         let wires = (0..ty.width).map(|bit| self.wire(operand, bit));
         wires.map(|wire| if negated { wire.complement() } else { wire }).collect()
     }
 
-    /// A bit of an operand.
+    /// Bit of an operand.
     pub fn wire(&self, operand: Operand, bit: u32) -> Wire {
         match operand {
             Operand::Constant(pattern) => Wire::fixed(pattern >> bit & 1 == 1),

@@ -1,4 +1,4 @@
-//! Which variables carry something from one scan to the next.
+//! Live variables at the beginning of a scan: those that carry a value from one scan to the next.
 
 use std::collections::BTreeMap;
 
@@ -8,20 +8,21 @@ use super::{Condition, FlatProgram, Instruction, Target};
 use crate::semantics::{Role, VarId};
 
 impl FlatProgram {
-    /// The variables whose values at the beginning of a scan can make a difference in it or after it, as positions.
+    /// Variables, as positions, whose values at the beginning of a scan can make a difference in it or after it.
     ///
-    /// The others are written before they are read on every way from the first line to the end, like an output that is
-    /// computed anew in every scan, or are inputs or buffers. Two states that differ in them only have the same future.
+    /// The others are written before they are read on every path from the first line to the end, like an output that is
+    /// computed anew in every scan, or are inputs or buffers. Two states that differ only in these have the same
+    /// future.
     #[must_use]
     pub fn carried(&self) -> FixedBitSet {
         let variables = self.variables.len();
         let mut carried = FixedBitSet::with_capacity(variables);
         let meetings = self.meetings();
-        // Of lines that control has yet to come to, in their order: the variables written on every way to them that is known. The
-        // set goes from line to line, and is copied only where control goes two ways.
+        // For lines yet to be visited, in their order: the variables written on every known path to the line. The set
+        // goes from line to line, and is copied only where control branches.
         let mut waiting = BTreeMap::from([(0, FixedBitSet::with_capacity(variables))]);
         let mut known: BTreeMap<usize, FixedBitSet> = BTreeMap::new();
-        // A line that control never comes to makes no difference.
+        // Unreachable lines make no difference.
         while let Some((line, mut written)) = waiting.pop_first() {
             if meetings.contains(line) {
                 let before = known.get(&line);
@@ -52,8 +53,8 @@ impl FlatProgram {
         carried
     }
 
-    /// Lines that a jump leads to and that may be come to again, because a jump back leads over them: what is known of them has to
-    /// be kept. All other lines are come to once if lines are taken in their order.
+    /// Targets of jumps that may be visited again, because a jump back leads over them: their sets have to be kept. All
+    /// other lines are visited once if lines are taken in their order.
     fn meetings(&self) -> FixedBitSet {
         let jumps = self.code.iter().enumerate().filter_map(|(line, code)| match code.instruction {
             Instruction::Jump { target, .. } => Some((line, target)),
@@ -72,7 +73,7 @@ impl FlatProgram {
     }
 }
 
-/// Control may come to a line with these variables written, too.
+/// Adds a path to a line: of the variables written, only those written on the known paths, too, remain.
 fn meet(waiting: &mut BTreeMap<usize, FixedBitSet>, line: usize, written: FixedBitSet) {
     match waiting.get_mut(&line) {
         Some(known) => known.intersect_with(&written),
@@ -80,8 +81,7 @@ fn meet(waiting: &mut BTreeMap<usize, FixedBitSet>, line: usize, written: FixedB
     }
 }
 
-/// The variables whose old values an instruction may need. Setting and resetting keep the old value if the current result
-/// is FALSE.
+/// Variables whose old values an instruction may need. Set and reset keep the old value if the current result is FALSE.
 fn reads(instruction: Instruction) -> impl Iterator<Item = VarId> {
     let kept = if let Instruction::Set(kept) | Instruction::Reset(kept) = instruction { Some(kept) } else { None };
     let index = match instruction.writes() {
@@ -91,7 +91,7 @@ fn reads(instruction: Instruction) -> impl Iterator<Item = VarId> {
     instruction.reads().into_iter().chain(kept).chain(index).flat_map(variables)
 }
 
-/// The variables that reading an operand may look at.
+/// Variables that reading an operand may access.
 fn variables(target: Target) -> Vec<VarId> {
     match target {
         Target::Variable(variable) => vec![variable],
@@ -99,7 +99,7 @@ fn variables(target: Target) -> Vec<VarId> {
     }
 }
 
-/// The lines control can go to.
+/// Lines that can be executed next.
 fn successors(line: usize, instruction: Instruction) -> [Option<usize>; 2] {
     match instruction {
         Instruction::Jump { condition: Condition::Always, target } => [Some(target), None],
@@ -115,7 +115,7 @@ mod tests {
     use crate::syntax::parse;
     use petril_base::source::Source;
 
-    /// The names of the variables that a program with inputs i, j, memory m, n and outputs p, q carries over.
+    /// Names of the variables that a program with inputs i, j, memory m, n and outputs p, q carries over.
     fn carried(body: &str) -> Vec<String> {
         let text = format!(
             "PROGRAM x VAR_INPUT i, j : BOOL; END_VAR VAR m, n : BOOL; END_VAR VAR_OUTPUT p, q : BOOL; END_VAR\n{body}\nEND_PROGRAM"

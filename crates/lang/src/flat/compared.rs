@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 use super::{FlatProgram, Function, Instruction, Operand, Target};
 use crate::semantics::{Type, VarId};
 
-/// Numbers after which something changes: `c` is one of them if `c` and `c + 1` may be told apart.
+/// Cut points of a number's range: `c` is one if the program may distinguish `c` and `c + 1`.
 pub type Cuts = BTreeSet<i128>;
 
 impl FlatProgram {
-    /// Where a program can tell values of an input apart, if all it does with the input is to compare it with constants: it
-    /// loads it and compares it in the next line, or compares a constant with it. `None` if it does anything else, like
-    /// storing it or computing with it.
+    /// Cut points of an input that the program only compares with constants: it loads the input and compares it in the
+    /// next line, or compares a constant with it. `None` if it does anything else with the input, like storing it or
+    /// computing with it.
     #[must_use]
     pub fn compared(&self, input: VarId) -> Option<Cuts> {
         let ty = self.variable(input).ty;
@@ -40,10 +40,10 @@ impl FlatProgram {
         Some(cuts)
     }
 
-    /// What the line behind a load tells apart; it is executed right after it, with nothing else in between.
+    /// Cut points of the line after a load, which is executed right after it.
     fn next_compares(&self, line: usize, ty: Type) -> Option<Cuts> {
         match self.code.get(line + 1).map(|code| code.instruction) {
-            // The value is never used.
+            // The loaded value is never used.
             None | Some(Instruction::Load { .. }) => Some(Cuts::new()),
             Some(Instruction::Combine { function, ty: taken, negated: false, operand: Operand::Constant(pattern) })
                 if taken == ty && function.compares() =>
@@ -54,7 +54,7 @@ impl FlatProgram {
         }
     }
 
-    /// The constant that is always the current result before a line.
+    /// Constant that is always the current result before a line, if there is one.
     fn constant_before(&self, line: usize, ty: Type) -> Option<i128> {
         let is_target =
             |code: &super::Line| matches!(code.instruction, Instruction::Jump { target, .. } if target == line);
@@ -70,7 +70,7 @@ impl FlatProgram {
     }
 }
 
-/// Where comparing a number with a constant on its right tells numbers apart.
+/// Cut points of a comparison with a constant on its right.
 fn cuts(function: Function, constant: i128) -> Cuts {
     match function {
         Function::Gt | Function::Le => Cuts::from([constant]),
@@ -79,7 +79,7 @@ fn cuts(function: Function, constant: i128) -> Cuts {
     }
 }
 
-/// The comparison with its sides exchanged.
+/// Comparison with its sides exchanged; `None` for other functions.
 fn mirrored(function: Function) -> Option<Function> {
     Some(match function {
         Function::Gt => Function::Lt,

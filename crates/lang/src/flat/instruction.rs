@@ -1,4 +1,4 @@
-//! The instructions of flat code, typed: each says how wide the current result (CR) is when it works on it.
+//! Typed instructions of flat code: each says how wide the current result (CR) is.
 
 use std::fmt;
 
@@ -7,134 +7,135 @@ use serde::{Deserialize, Serialize};
 
 use crate::semantics::{Type, VarId};
 
-/// What an instruction does to the memory and the current result (CR).
+/// Instruction of flat code: its effect on the memory and the current result (CR).
 ///
-/// CR is a pattern of as many bits as the instruction's type has; what is in the bits above is never looked at.
+/// CR is a pattern of as many bits as the instruction's type has; higher bits are never read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Instruction {
     /// `LD`, `LDN`: CR := operand, every bit complemented if `negated`.
     Load {
-        /// The type of operand and CR.
+        /// Type of operand and CR.
         ty: Type,
-        /// Modifier N.
+        /// Whether modifier N is set.
         negated: bool,
-        /// What is loaded.
+        /// Operand loaded.
         operand: Operand,
     },
     /// `ST`, `STN`: target := CR, every bit complemented if `negated`.
     Store {
-        /// The type of target and CR.
+        /// Type of target and CR.
         ty: Type,
-        /// Modifier N.
+        /// Whether modifier N is set.
         negated: bool,
-        /// Where to.
+        /// Variable or element written.
         target: Target,
     },
-    /// `S`: target := TRUE if CR is TRUE. Both are `BOOL`.
+    /// `S`: target := TRUE if CR is TRUE; target and CR are `BOOL`.
     Set(Target),
-    /// `R`: target := FALSE if CR is TRUE. Both are `BOOL`.
+    /// `R`: target := FALSE if CR is TRUE; target and CR are `BOOL`.
     Reset(Target),
     /// `NOT`: every bit of CR is complemented.
     Complement(Type),
     /// CR := CR function operand, the operand complemented if `negated`. A comparison gives a `BOOL`.
     Combine {
-        /// The function.
+        /// Function applied.
         function: Function,
-        /// The type of CR and operand. A shift's operand may be of any type: its pattern is an unsigned number.
+        /// Type of CR and operand. A shift's operand may be of any type: its pattern is an unsigned number.
         ty: Type,
-        /// Modifier N.
+        /// Whether modifier N is set.
         negated: bool,
-        /// The right operand.
+        /// Right operand.
         operand: Operand,
     },
-    /// CR := the same number in another type, modulo 2^width; to `BOOL`: whether it is not 0. A number that is not one of
-    /// the new type, of a kind that has numbers, is an overflow.
+    /// CR := the same number in another type, modulo 2^width; to `BOOL`: whether it is not 0. A number outside the new
+    /// type is an overflow, if the type is one of numbers.
     Convert {
-        /// The type before.
+        /// Type before.
         from: Type,
-        /// The type after.
+        /// Type after.
         to: Type,
     },
-    /// A number outside `lower ..= upper` is a hazard. CR keeps its value, but [`Hazard::Index`] makes it `lower`.
+    /// Range check: a number outside `lower ..= upper` is a hazard. CR keeps its value, but [`Hazard::Index`] makes it
+    /// `lower`.
     Bound {
-        /// The type of CR.
+        /// Type of CR.
         ty: Type,
-        /// The least number allowed.
+        /// Least number allowed.
         lower: i128,
-        /// The greatest number allowed.
+        /// Greatest number allowed.
         upper: i128,
-        /// What a number outside is.
+        /// Hazard that a number outside the range is.
         hazard: Hazard,
     },
-    /// Go on at `target` if the condition holds of CR, a `BOOL`.
+    /// Jump to `target` if the condition holds of CR, a `BOOL`.
     Jump {
-        /// When.
+        /// Condition of the jump.
         condition: Condition,
-        /// A line, from 0; the length of the code stands for the end.
+        /// Line jumped to, from 0; the length of the code stands for the end.
         target: usize,
     },
 }
 
-/// Where an instruction takes its operand from.
+/// Operand of an instruction: a variable, an element of an array, or a literal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operand {
-    /// What an instruction could also write.
+    /// Variable or element.
     Place(Target),
-    /// A literal, as a pattern of the instruction's type.
+    /// Literal, as a pattern of the instruction's type.
     Constant(u64),
 }
 
-/// What an instruction reads or writes.
+/// Memory that an instruction reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// A variable.
+    /// Variable.
     Variable(VarId),
-    /// An element of an array, chosen by the value of a variable.
+    /// Element of an array, selected by the value of a variable.
     Element(Element),
 }
 
-/// The variables `first`, `first + stride`, …: as many as `length`, all of one type. The value of `index`, a buffer, says
-/// which of them; it is always less than `length`.
+/// Element of an array: one of the `length` variables `first`, `first + stride`, …, which are all of one type. The
+/// value of `index`, a buffer, selects it and is always less than `length`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Element {
-    /// The variable at index 0.
+    /// Variable at index 0.
     pub first: VarId,
-    /// From one to the next.
+    /// Distance from one variable to the next.
     pub stride: usize,
-    /// How many there are.
+    /// Number of variables.
     pub length: usize,
-    /// The variable that says which.
+    /// Variable that holds the index.
     pub index: VarId,
 }
 
 impl Element {
-    /// The variable at an index.
+    /// Variable at an index.
     #[must_use]
     pub fn at(&self, index: usize) -> VarId {
         VarId(self.first.0 + index * self.stride)
     }
 
-    /// The variables it can be.
+    /// Iterator over the variables that the element can be.
     pub fn all(self) -> impl Iterator<Item = VarId> {
         (0..self.length).map(move |index| self.at(index))
     }
 }
 
-/// What should not happen while a program runs, and is checked without asking.
+/// Run-time error that an instruction can meet, checked in every program without a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Hazard {
-    /// A number is not one of its type. It goes on modulo 2^width.
+    /// A number is outside its type. The result is taken modulo 2^width.
     Overflow,
     /// A divisor is 0. The result is 0.
     DivisionByZero,
-    /// An index is outside its array. It goes on with the least one.
+    /// An index is outside its array. The least index is used instead.
     Index,
-    /// A value is outside the subrange of its variable. It is stored all the same.
+    /// A value is outside the subrange of its variable. The value is stored all the same.
     Subrange,
 }
 
 impl Hazard {
-    /// All of them.
+    /// Every hazard.
     pub const ALL: [Self; 4] = [Self::Overflow, Self::DivisionByZero, Self::Index, Self::Subrange];
 
     /// Name of the check that looks for it.
@@ -156,7 +157,7 @@ impl fmt::Display for Hazard {
 }
 
 impl Instruction {
-    /// What it reads, besides CR.
+    /// Variable or element that the instruction reads, besides CR.
     #[must_use]
     pub fn reads(&self) -> Option<Target> {
         match *self {
@@ -166,7 +167,7 @@ impl Instruction {
         }
     }
 
-    /// What it writes, besides CR. Setting and resetting may leave it as it was.
+    /// Variable or element that the instruction writes, besides CR. Set and reset may leave it unchanged.
     #[must_use]
     pub fn writes(&self) -> Option<Target> {
         match *self {
@@ -175,7 +176,7 @@ impl Instruction {
         }
     }
 
-    /// The type it gives CR; `None` if CR stays as it is.
+    /// Type of CR after the instruction; `None` if CR does not change.
     #[must_use]
     pub fn gives(&self) -> Option<Type> {
         match *self {
@@ -187,7 +188,7 @@ impl Instruction {
         }
     }
 
-    /// The hazards it can meet.
+    /// Hazards that the instruction can meet.
     #[must_use]
     pub fn hazards(&self) -> &'static [Hazard] {
         match *self {

@@ -1,7 +1,7 @@
 //! Flat code: the seed paper's *Env* and *Code* (Heiner and Menzel, section 2.2).
 //!
-//! One strictly sequential list of typed instructions: parentheses are buffered in fresh variables, labels are line
-//! numbers, a return is a jump to the end. Both the interpreter and the net are made from it.
+//! Strictly sequential list of typed instructions: parentheses are buffered in fresh variables, labels are line
+//! numbers, a return is a jump to the end. Interpreter and net are both made from it.
 
 mod carried;
 mod compared;
@@ -27,89 +27,90 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::semantics::{Role, Type, VarId, spelling};
 use petril_base::source::Span;
 
-/// A flat program.
+/// Program as flat code.
 ///
 /// Lines are counted from 0 in the code and from 1 wherever people read them; line `code.len()` is the end.
 #[derive(Clone, Debug)]
 pub struct FlatProgram {
     /// Name of the program.
     pub name: String,
-    /// The declared variables in their order, then the buffers.
+    /// Declared variables in their order, then the buffers.
     pub variables: Vec<Variable>,
-    /// The instructions in their order.
+    /// Instructions in their order.
     pub code: Vec<Line>,
     /// Variables whose declarations do not allow every value of their types.
     pub restrictions: BTreeMap<VarId, Restriction>,
-    /// Elementary variables with an address, by its one spelling.
+    /// Elementary variables with an address, by the address in its standard spelling.
     pub addresses: BTreeMap<String, VarId>,
-    /// Local variables of function blocks' instances, which nobody but the block itself can name.
+    /// Local variables of function block instances, which only the block itself can name.
     pub internal: BTreeSet<VarId>,
-    /// The time from one scan to the next in milliseconds, if a timer depends on it.
+    /// Scan time in milliseconds, if a timer depends on it.
     pub scan_time: Option<u64>,
-    /// The same whether one does or not.
+    /// Scan time in milliseconds, whether or not a timer depends on it.
     pub cycle: u64,
-    /// Whether a timer's preset time can be anything, so that its clock stands once it has reached the one it has.
+    /// Whether some timer's preset time has no known maximum, so that its clock stops at the preset time it has at the
+    /// moment.
     pub presets_vary: bool,
 }
 
-/// A variable of an elementary type. Arrays, structures and instances are many of them, each with a name of its own like
-/// `pump.T.Q` or `level[3]`.
+/// Variable of an elementary type. Arrays, structures and instances are split into many of them, each with a name of
+/// its own like `pump.T.Q` or `level[3]`.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// The name as it was declared.
+    /// Name as it was declared.
     pub name: String,
-    /// What it is for.
+    /// Role: input, output, memory, constant or buffer.
     pub role: Role,
-    /// Its type.
+    /// Elementary type.
     pub ty: Type,
-    /// How many bits of its pattern are stored: those above are always 0. At least 1, at most the type's width.
+    /// Number of stored bits of the pattern: those above are always 0. At least 1, at most the type's width.
     pub bits: u32,
-    /// Its value at power-on, as a pattern of its type.
+    /// Value at power-on, as a pattern of the type.
     pub initial: u64,
-    /// Its declaration, if it has one.
+    /// Span of the declaration, if there is one.
     pub span: Option<Span>,
 }
 
-/// One line of flat code.
+/// Line of flat code.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What it does; a jump's target is a line.
+    /// Instruction; a jump's target is a line.
     pub instruction: Instruction,
-    /// The piece of source it comes from.
+    /// Span of the source that the line comes from.
     pub span: Span,
 }
 
 impl FlatProgram {
-    /// The line behind the last one, where every scan ends.
+    /// Line after the last one, where every scan ends.
     #[must_use]
     pub fn end(&self) -> usize {
         self.code.len()
     }
 
-    /// A variable.
+    /// Variable with an id.
     #[must_use]
     pub fn variable(&self, id: VarId) -> &Variable {
         &self.variables[id.0]
     }
 
-    /// The variables of a role, in the order of declaration.
+    /// Variables with a role, in the order of declaration.
     pub fn with_role(&self, role: Role) -> impl Iterator<Item = VarId> + Clone {
         (0..self.variables.len()).map(VarId).filter(move |&id| self.variable(id).role == role)
     }
 
-    /// The variables the user declared; the valuation of these is a scan state.
+    /// Variables that the user declared; their valuation is a state of the scan view.
     pub fn declared(&self) -> impl Iterator<Item = VarId> + Clone {
         (0..self.variables.len()).map(VarId).filter(|&id| self.variable(id).role != Role::Buffer)
     }
 
-    /// The variable of a name, however it is spelt. Buffers have no name that could be asked for.
+    /// Variable with a name, in any case. Buffers cannot be found by name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<VarId> {
         self.declared().find(|&id| self.variable(id).name.eq_ignore_ascii_case(name))
     }
 
-    /// The variable of a name in a formula: as it is declared, or with the program before it, `starter.Motor`, or with PLCverif's word
-    /// for the block under check, `instance.Motor`. What is declared goes first.
+    /// Variable with a name in a formula: as it is declared, or with the program before it, `starter.Motor`, or with
+    /// PLCverif's word for the block under check, `instance.Motor`. Declared names take precedence.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<VarId> {
         self.find(name).or_else(|| {
@@ -123,7 +124,7 @@ impl FlatProgram {
         })
     }
 
-    /// The elementary variable at an address like `%IX0.0`, however it is spelt.
+    /// Elementary variable at an address like `%IX0.0`, in any spelling.
     #[must_use]
     pub fn at(&self, address: &str) -> Option<VarId> {
         self.addresses.get(&spelling(address)).copied()

@@ -1,24 +1,24 @@
-//! How many bits of each variable can ever be other than 0.
+//! Narrowing: bounds on the number of bits of each variable that can ever be other than 0.
 
 use std::collections::BTreeSet;
 
 use super::{FlatProgram, Instruction, Operand, Target};
 use crate::semantics::{Role, VarId};
 
-/// A timer's clock, which stays below its preset time plus one step.
+/// Clock of a timer, which stays below the greatest preset time plus one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Timer {
-    /// The clock.
+    /// Variable of the clock.
     pub clock: VarId,
-    /// The preset time.
+    /// Variable of the preset time.
     pub preset: VarId,
-    /// What the clock advances by in one scan, in milliseconds.
+    /// Advance of the clock in one scan, in milliseconds.
     pub step: u64,
-    /// The line that compares the clock with the preset time before that.
+    /// Line that compares the clock with the preset time before it advances.
     pub line: usize,
 }
 
-/// A variable that has been given a greater number this often may have any.
+/// Number of raises of a variable's bound after which any value is assumed (widening).
 const MAX_RAISES: usize = 1000;
 
 /// Narrows the variables that are only given constants and copies: `preset := T#200ms` needs 8 bits, not 32.
@@ -38,7 +38,7 @@ pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
             greatest[id] = mask(id);
         }
     }
-    // Who gets a copy of each variable, and with how much more.
+    // For each variable, the variables that get a copy of it, each with the number added.
     let mut copies: Vec<Vec<(usize, u64)>> = vec![Vec::new(); program.variables.len()];
     let clocks: BTreeSet<usize> = timers.iter().map(|timer| timer.clock.0).collect();
     for timer in timers {
@@ -66,7 +66,7 @@ pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
     let mut raised = vec![0; greatest.len()];
     while let Some(from) = work.pop() {
         for &(to, more) in &copies[from] {
-            // What is as wide as its type may be negative; then nothing is known.
+            // A bound as wide as its type may stand for a negative number; then nothing is known.
             let value = greatest[from].saturating_add(more).min(mask(to));
             if value > greatest[to] {
                 raised[to] += 1;
@@ -92,7 +92,7 @@ pub fn narrow(program: &mut FlatProgram, timers: &[Timer]) {
     }
 }
 
-/// What the current result was loaded from when a line stores it, if no other line can have changed it.
+/// Operand that the current result was loaded from when a line stores it, if no other line can have changed it.
 fn source(program: &FlatProgram, line: usize, targets: &BTreeSet<usize>) -> Option<Operand> {
     let mut at = line;
     while !targets.contains(&at) && at > 0 {

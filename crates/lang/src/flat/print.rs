@@ -5,7 +5,7 @@ use crate::semantics::{Kind, Role, Type};
 use petril_base::source::Source;
 
 impl FlatProgram {
-    /// An instruction as one would write it: `ANDN  O1`, `JMPC  17`, `JMP   End`.
+    /// Text of an instruction as one would write it: `ANDN  O1`, `JMPC  17`, `JMP   End`.
     #[must_use]
     pub fn text(&self, instruction: Instruction) -> String {
         let n = |negated: bool| if negated { "N" } else { "" };
@@ -22,7 +22,7 @@ impl FlatProgram {
             Instruction::Complement(_) => return "NOT".to_owned(),
             Instruction::Combine { function, ty, negated, operand } => {
                 let operand = match operand {
-                    // A distance is a number, whatever is shifted.
+                    // The distance of a shift is a number, whatever is shifted.
                     Operand::Constant(distance) if function.shifts() => distance.to_string(),
                     _ => value(operand, ty),
                 };
@@ -38,7 +38,7 @@ impl FlatProgram {
         format!("{operator:<5} {operand}")
     }
 
-    /// A variable, or an element of an array as `level[A]`.
+    /// Text of a variable, or of an element of an array as `level[A]`.
     fn target_text(&self, target: Target) -> String {
         match target {
             Target::Variable(variable) => self.variable(variable).name.clone(),
@@ -56,8 +56,8 @@ impl FlatProgram {
         }
     }
 
-    /// The whole code: line number, instruction, and the source line it comes from, each source line once; then the
-    /// buffers. This is what `petril flat` prints.
+    /// Listing of the whole code: line number, instruction, and the source line it comes from, each source line once;
+    /// then the buffers. Printed by `petril flat`.
     #[must_use]
     pub fn listing(&self, source: &Source) -> String {
         let texts: Vec<String> = self.code.iter().map(|line| self.text(line.instruction)).collect();
@@ -80,7 +80,7 @@ impl FlatProgram {
     }
 }
 
-/// A value as a literal of its type: `TRUE`, `-5`, `16#FF`, `T#200ms`.
+/// Text of a value as a literal of its type: `TRUE`, `-5`, `16#FF`, `T#200ms`.
 #[must_use]
 pub fn literal(ty: Type, pattern: u64) -> String {
     match ty.kind {

@@ -1,21 +1,21 @@
-//! Types of which not every pattern is a value.
+//! Restrictions of variables whose type has patterns that are not values: enumerations and subranges.
 
 use std::sync::Arc;
 
 use super::{FlatProgram, value_text};
 use crate::semantics::{Scalar, VarId};
 
-/// What a declaration allows of a type's values.
+/// Restriction of a type's values by a declaration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Restriction {
-    /// The names of the values 0, 1, ….
+    /// Enumeration: names of the values 0, 1, ….
     Enumeration(Arc<[String]>),
-    /// The least and the greatest value.
+    /// Subrange: least and greatest value.
     Subrange(i128, i128),
 }
 
 impl Restriction {
-    /// What a scalar's declaration allows, if that is not every value of its type.
+    /// Restriction by a scalar's declaration; `None` if it allows every value of its type.
     #[must_use]
     pub fn of(scalar: &Scalar) -> Option<Self> {
         match (&scalar.enumeration, scalar.range) {
@@ -25,7 +25,7 @@ impl Restriction {
         }
     }
 
-    /// The least and the greatest value allowed.
+    /// Least and greatest value allowed.
     #[must_use]
     pub fn range(&self) -> (i128, i128) {
         match self {
@@ -36,14 +36,14 @@ impl Restriction {
 }
 
 impl FlatProgram {
-    /// The least and the greatest number a variable may be given from outside.
+    /// Least and greatest number that a variable may be given from outside.
     #[must_use]
     pub fn range(&self, id: VarId) -> (i128, i128) {
         let ty = self.variable(id).ty;
         self.restrictions.get(&id).map_or((ty.least(), ty.greatest()), Restriction::range)
     }
 
-    /// The number of a value's name, for a variable of an enumerated type.
+    /// Number of an enumerated value by its name, for a variable of an enumerated type.
     #[must_use]
     pub fn enumerated(&self, id: VarId, name: &str) -> Option<i128> {
         match self.restrictions.get(&id)? {
@@ -54,7 +54,7 @@ impl FlatProgram {
         }
     }
 
-    /// The value of a variable in a table; that of an enumerated type by its name.
+    /// Text of a variable's value in a table; that of an enumerated type is its name.
     #[must_use]
     pub fn value_text(&self, id: VarId, pattern: u64) -> String {
         let named = match self.restrictions.get(&id) {

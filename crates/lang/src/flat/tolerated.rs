@@ -1,16 +1,16 @@
-//! Which hazards are taken for what the program means.
+//! Hazards that are tolerated as the defined behaviour of the PLC.
 
 use std::collections::BTreeSet;
 
 use super::{FlatProgram, Hazard};
 
-/// The hazards that count as part of a program's meaning, because the PLC is known to handle them so. The others are errors:
-/// after them, nothing is known.
+/// Hazards that count as part of a program's meaning, because the PLC is known to handle them so. All others are
+/// errors: after them, nothing is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tolerated {
-    /// Numbers that do not fit their type go on modulo 2^width.
+    /// Whether numbers that do not fit their type go on modulo 2^width.
     pub overflow: bool,
-    /// A division by zero gives 0.
+    /// Whether a division by zero gives 0.
     pub division_by_zero: bool,
 }
 
@@ -25,7 +25,7 @@ impl Tolerated {
         }
     }
 
-    /// The first of some hazards that is not tolerated.
+    /// First hazard, with its line, that is not tolerated.
     #[must_use]
     pub fn first_error(self, hazards: &[(usize, Hazard)]) -> Option<(usize, Hazard)> {
         hazards.iter().copied().find(|&(_, hazard)| !self.allows(hazard))
@@ -33,7 +33,7 @@ impl Tolerated {
 }
 
 impl FlatProgram {
-    /// The hazards its instructions can meet.
+    /// Hazards that the program's instructions can meet.
     #[must_use]
     pub fn hazards(&self) -> BTreeSet<Hazard> {
         self.code.iter().flat_map(|line| line.instruction.hazards()).copied().collect()

@@ -1,9 +1,9 @@
-//! Values as people read them in tables.
+//! Text of values in tables.
 
 use crate::semantics::{Kind, Type};
 
-/// A value in a table: `0` and `1` for truth values, `16#8001` for bits without a meaning as a number, `T#1s500ms` for times,
-/// decimal numbers for everything else.
+/// Text of a value in a table: `0` and `1` for truth values, `16#8001` for bit strings, `T#1s500ms` for times, decimal
+/// numbers for everything else.
 #[must_use]
 pub fn value_text(ty: Type, pattern: u64) -> String {
     let number = ty.number(pattern);

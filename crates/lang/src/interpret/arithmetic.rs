@@ -1,9 +1,9 @@
-//! The functions of two numbers, on patterns of a type.
+//! Functions of two operands, on the bit patterns of a type.
 
 use crate::flat::{Function, Hazard};
 use crate::semantics::{Kind, Type};
 
-/// The value of a function of the current result and an operand, and what is wrong with it.
+/// Applies a function to the current result and an operand; returns the value and the hazard it meets.
 pub fn combine(function: Function, ty: Type, result: u64, operand: u64) -> (u64, Option<Hazard>) {
     let (a, b) = (ty.number(result), ty.number(operand));
     let truth = |value| (u64::from(value), None);
@@ -27,13 +27,13 @@ pub fn combine(function: Function, ty: Type, result: u64, operand: u64) -> (u64,
     }
 }
 
-/// A number as a pattern of its type, modulo 2^width. Bits are no numbers, and cannot overflow.
+/// Bit pattern of a number, modulo 2^width. Bit strings are not numbers, and cannot overflow.
 fn number(ty: Type, number: i128) -> (u64, Option<Hazard>) {
     let fits = ty.kind == Kind::Bits || ty.holds(number);
     (ty.pattern(number), (!fits).then_some(Hazard::Overflow))
 }
 
-/// A pattern shifted or rotated, by any distance.
+/// Shifts or rotates a bit pattern, by any distance.
 fn shift(function: Function, ty: Type, pattern: u64, distance: u64) -> u64 {
     let width = u64::from(ty.width);
     let around = distance % width;
@@ -48,7 +48,7 @@ fn shift(function: Function, ty: Type, pattern: u64, distance: u64) -> u64 {
     }
 }
 
-/// A pattern of one type as one of another.
+/// Converts a bit pattern of one type to another.
 pub fn convert(from: Type, to: Type, pattern: u64) -> (u64, Option<Hazard>) {
     let number = from.number(pattern);
     if to.is_bool() {
@@ -68,7 +68,7 @@ mod tests {
         Type::named(name).unwrap_or_else(|| panic!("{name}"))
     }
 
-    /// The function of two numbers of a type.
+    /// Value and hazard of a function of two numbers of a type.
     fn of(function: Function, name: &str, a: i128, b: i128) -> (i128, Option<Hazard>) {
         let ty = ty(name);
         let (pattern, hazard) = combine(function, ty, ty.pattern(a), ty.pattern(b));

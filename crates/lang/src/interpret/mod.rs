@@ -1,5 +1,5 @@
 //! The operational semantics (seed paper, section 2.3): states (i, m, a) of line, memory and current result, and one
-//! transition for each instruction. Everything else is held to this.
+//! transition for each instruction. The reference for everything else.
 
 mod arithmetic;
 
@@ -7,7 +7,7 @@ use crate::flat::{Condition, FlatProgram, Function, Hazard, Instruction, Operand
 use crate::semantics::{Type, VarId};
 use arithmetic::{combine, convert};
 
-/// A machine that executes flat code, one instruction or one scan at a time.
+/// Interpreter that executes flat code, one instruction or one scan at a time.
 #[derive(Clone, Debug)]
 pub struct Machine<'p> {
     program: &'p FlatProgram,
@@ -17,24 +17,24 @@ pub struct Machine<'p> {
     memory: Vec<u64>,
     /// a: the current result, called accumulator in the paper.
     result: u64,
-    /// What happened in this scan that should not, with the line (from 0), in the order of time.
+    /// Hazards met in this scan, each with its line (from 0), in the order of time.
     hazards: Vec<(usize, Hazard)>,
 }
 
-/// Why a scan has no end state.
+/// Reason why a scan has no end state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The scan never ends: the machine came back to a state it had been in since the scan began.
     Endless,
-    /// The scan takes more than [`MAX_STEPS`] instructions, so nobody waited for its end.
+    /// The scan takes more than [`MAX_STEPS`] instructions and was given up.
     TooLong,
 }
 
-/// The longest scan that is executed to its end, in instructions.
+/// Longest scan that is executed to its end, in instructions.
 pub const MAX_STEPS: usize = 1 << 26;
 
 impl<'p> Machine<'p> {
-    /// The machine at power-on: every variable has its initial value.
+    /// Creates the machine at power-on: every variable has its initial value.
     #[must_use]
     pub fn new(program: &'p FlatProgram) -> Self {
         let memory = program.variables.iter().map(|variable| variable.initial).collect();
@@ -47,30 +47,30 @@ impl<'p> Machine<'p> {
         self.line
     }
 
-    /// The current result. It means as many bits as the instruction before gave it.
+    /// The current result. Only as many bits are meaningful as the type of the instruction before has.
     #[must_use]
     pub fn result(&self) -> u64 {
         self.result
     }
 
-    /// The value of a variable.
+    /// Value of a variable, as a pattern of its type.
     #[must_use]
     pub fn value(&self, variable: VarId) -> u64 {
         self.memory[variable.0]
     }
 
-    /// The values of all variables.
+    /// Values of all variables, as patterns of their types.
     #[must_use]
     pub fn memory(&self) -> &[u64] {
         &self.memory
     }
 
-    /// Gives a variable a value, as the copying of inputs does.
+    /// Sets the value of a variable, as the copying of inputs does.
     pub fn set(&mut self, variable: VarId, value: u64) {
         self.memory[variable.0] = value;
     }
 
-    /// Gives every variable a value at once; the current result becomes 0.
+    /// Sets the values of all variables; the current result becomes 0.
     pub fn restore(&mut self, memory: &[u64]) {
         self.memory.copy_from_slice(memory);
         self.result = 0;
@@ -82,7 +82,7 @@ impl<'p> Machine<'p> {
         self.line == self.program.end()
     }
 
-    /// Goes to the first line.
+    /// Goes to the first line and forgets the hazards of the last scan.
     pub fn begin_scan(&mut self) {
         self.line = 0;
         self.hazards.clear();
@@ -94,7 +94,7 @@ impl<'p> Machine<'p> {
         &self.hazards
     }
 
-    /// Executes one instruction and keeps the hazard it meets.
+    /// Executes one instruction and records the hazard it meets.
     #[inline(always)]
     fn run(&mut self) {
         let line = self.line;
@@ -103,8 +103,8 @@ impl<'p> Machine<'p> {
         }
     }
 
-    /// Executes one instruction; nothing at the end. Says which hazard it met.
-    // Scans spend their time here; inlined into their loop it takes half of it.
+    /// Executes one instruction, or none at the end of the scan; returns the hazard it met.
+    // Scans spend their time here; inlining halves the time of their loop.
     #[inline(always)]
     pub fn step(&mut self) -> Option<Hazard> {
         let line = self.program.code.get(self.line)?;
@@ -178,10 +178,10 @@ impl<'p> Machine<'p> {
         self.scan_with_loops()
     }
 
-    /// Goes on with a scan that has taken more instructions than the program has.
+    /// Continues a scan that has taken more instructions than the program has.
     ///
-    /// States are compared with an earlier one that is renewed at doubling distances (Brent), so a loop that repeats a state
-    /// is found whatever its length.
+    /// States are compared with an earlier one that is renewed at doubling distances (Brent's cycle detection), so a
+    /// loop that repeats a state is found whatever its length.
     fn scan_with_loops(&mut self) -> Result<(), Fault> {
         let mut earlier = self.clone();
         let mut steps = self.program.end() + 1;
@@ -203,7 +203,7 @@ impl<'p> Machine<'p> {
         Ok(())
     }
 
-    /// Whether line, memory and current result are the same.
+    /// Whether line, memory and current result are those of the other machine.
     #[must_use]
     pub fn same_state(&self, other: &Self) -> bool {
         self.line == other.line && self.result == other.result && self.memory == other.memory
@@ -216,7 +216,7 @@ impl<'p> Machine<'p> {
         }
     }
 
-    /// The variable that is meant now.
+    /// Variable that a target denotes in the present memory.
     fn variable(&self, target: Target) -> VarId {
         match target {
             Target::Variable(variable) => variable,

@@ -4,7 +4,7 @@ use super::written_out::{Run, flat};
 use crate::syntax::parse;
 use petril_base::source::Source;
 
-/// Two functions and a function block that read `x` and hand it on.
+/// Two functions and a function block that read `x` and pass it on.
 const HANDED_ON: &str = "FUNCTION f : BOOL\nVAR_INPUT x : BOOL; END_VAR VAR_OUTPUT y : BOOL; END_VAR\nLD x\nST f\nSTN y\nEND_FUNCTION\n\
     FUNCTION moved : INT\nVAR_INPUT x, by : INT := 10; END_VAR VAR_OUTPUT y : INT; END_VAR\nLD x\nST moved\nADD by\nST y\nEND_FUNCTION\n\
     FUNCTION_BLOCK g\nVAR_INPUT x : BOOL; n, m : INT; END_VAR VAR_OUTPUT y : BOOL; END_VAR\nLD x\nST y\nEND_FUNCTION_BLOCK\n";

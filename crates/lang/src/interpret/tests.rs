@@ -92,13 +92,14 @@ fn a_loop_ends_or_is_found_out() {
     // m counts to one and ends the loop: two rounds.
     let ending = program("on: LDN m\nST m\nJMPC on\nLD m\nST q");
     assert_eq!(Machine::new(&ending).scan(), Ok(()));
-    // Never leaves: the state after m has flipped twice is the same again.
+    // An endless loop: after m has flipped twice, the state is the same again.
     let endless = program("on: LDN m\nST m\nJMP on");
     assert_eq!(Machine::new(&endless).scan(), Err(Fault::Endless));
     assert_eq!(Machine::new(&program("on: JMP on")).scan(), Err(Fault::Endless));
 }
 
-/// A counter of 30 bits takes a thousand million rounds to come to its end: no state repeats, and nobody waits.
+/// A counter of 30 bits takes a thousand million rounds to come to its end: no state repeats, and the limit of steps is
+/// reached.
 #[test]
 fn a_loop_that_ends_too_late_is_given_up() {
     let bits: Vec<String> = (0..30).map(|i| format!("b{i}")).collect();

@@ -1,4 +1,4 @@
-//! Flattened calls, arrays and functions, executed.
+//! Execution of inlined calls, arrays and functions.
 
 use super::Machine;
 use crate::flat::{FlatProgram, Hazard, flatten, flatten_with};
@@ -16,7 +16,7 @@ fn checked(text: &str) -> crate::semantics::Program {
     program.unwrap_or_else(|| panic!("{text}\n{errors:#?}\n{more:#?}"))
 }
 
-/// A machine that takes and gives numbers by name.
+/// Machine whose variables are set and read by name, as numbers.
 pub(super) struct Run<'p> {
     machine: Machine<'p>,
     program: &'p FlatProgram,
@@ -27,7 +27,7 @@ impl<'p> Run<'p> {
         Self { machine: Machine::new(program), program }
     }
 
-    /// One scan with these inputs; what can go wrong in it.
+    /// Executes one scan with these inputs; returns its hazards.
     pub fn scan(&mut self, inputs: &[(&str, i128)]) -> Vec<Hazard> {
         for (name, number) in inputs {
             let id = self.program.find(name).unwrap_or_else(|| panic!("{name}"));
@@ -44,7 +44,7 @@ impl<'p> Run<'p> {
     }
 }
 
-/// What a body makes of `a` and `b`, which are of a type, in `q` of another.
+/// Value of `q`, of type `result`, after a body has run with inputs `a` and `b` of type `ty`.
 fn value(ty: &str, result: &str, body: &str, a: i128, b: i128) -> i128 {
     let text = format!(
         "PROGRAM p VAR_INPUT a, b : {ty}; c : BOOL; k : USINT; END_VAR VAR_OUTPUT q : {result}; END_VAR\n{body}\nST q\nEND_PROGRAM"

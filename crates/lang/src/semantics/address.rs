@@ -11,7 +11,7 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_base::{Kind, Type};
 
-/// The area of an address.
+/// Area of an address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Area {
     /// `%I`
@@ -22,17 +22,17 @@ pub enum Area {
     Memory,
 }
 
-/// The address of a variable.
+/// Address of a variable.
 #[derive(Clone, Debug)]
 pub struct Location {
     pub area: Area,
-    /// As it was written.
+    /// Text as written.
     pub text: String,
-    /// Where it stands.
+    /// Span in the text.
     pub span: Span,
 }
 
-/// An address in the one spelling that all its spellings share: `%ix0.0` and `%I0.0` are `%I0.0`.
+/// Normalised spelling of an address, equal for all its spellings: `%ix0.0` and `%I0.0` are `%I0.0`.
 #[must_use]
 pub fn spelling(text: &str) -> String {
     let text = key(text);
@@ -42,7 +42,7 @@ pub fn spelling(text: &str) -> String {
     }
 }
 
-/// The area and size of an address like `%IX0.0`; no size is written in `%I0.0`.
+/// Reads area and size of an address like `%IX0.0`; `%I0.0` has no size. `None` if the text is not an address.
 pub fn read(text: &str) -> Option<(Area, Option<Type>)> {
     let text = text.to_ascii_uppercase();
     let mut letters = text.strip_prefix('%')?.chars();
@@ -70,7 +70,7 @@ pub fn read(text: &str) -> Option<(Area, Option<Type>)> {
     numbers.then(|| (area, width.map(|width| Type::new(Kind::Bits, width))))
 }
 
-/// The error that an address is none.
+/// Error for an address that cannot be read.
 pub fn unreadable(address: &Name) -> Diagnostic {
     let message = format!("`{}` is no address that can be read", address.text);
     let help = match standard_address(&address.text) {
@@ -82,7 +82,7 @@ pub fn unreadable(address: &Name) -> Diagnostic {
     Diagnostic::new(Code::AddressUnfit, address.span, message).help(help)
 }
 
-/// The address of a variable, if it fits the variable.
+/// Checks that an address fits its variable.
 pub fn fit(location: &Name, symbol: &Symbol, may_locate: bool) -> Result<Location, Diagnostic> {
     let unfit =
         |message: String, help: &str| Err(Diagnostic::new(Code::AddressUnfit, location.span, message).help(help));
@@ -115,7 +115,7 @@ pub fn fit(location: &Name, symbol: &Symbol, may_locate: bool) -> Result<Locatio
     }
 }
 
-/// Makes a global variable of every address that the units of a file use without a declaration.
+/// Adds a global variable for every address that the units of a file use without a declaration.
 pub fn undeclared(unit: &Unit, globals: &mut Symbols) {
     let mut paths: Vec<&Path> = Vec::new();
     for pou in &unit.pous {

@@ -1,4 +1,4 @@
-//! Which units call which: what a program needs, and that no unit calls itself.
+//! Call graph: the units that a program needs, and the check that no unit calls itself.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::syntax::ast::{Name, Operation, with_nested};
 use petril_base::diagnostic::{Code, Diagnostic};
 
 impl Project<'_> {
-    /// The units that a unit calls, each with the name that says so.
+    /// Units that a unit calls, each with the name that calls it.
     pub fn calls(&self, id: PouId) -> Vec<(PouId, &Name)> {
         let pou = self.pou(id);
         let mut calls = Vec::new();
@@ -25,7 +25,7 @@ impl Project<'_> {
         calls
     }
 
-    /// The units that a unit needs, itself last; what calls itself is reported.
+    /// Units that a unit needs, callees first and the unit itself last; reports recursion.
     pub fn reachable(&self, entry: PouId, found: &mut Vec<Diagnostic>) -> Vec<PouId> {
         let mut done = Vec::new();
         let mut open = Vec::new();
@@ -53,7 +53,7 @@ impl Project<'_> {
                         found.push(Diagnostic::new(Code::Recursion, name.span, message).help(help));
                     }
                 }
-                // Units are called at most this deep; the limit keeps everything that follows calls within its stack.
+                // Maximum nesting depth of calls; the limit keeps recursion over calls within its stack.
                 None if open.len() < 100 => self.visit(callee, open, done, found),
                 None => {
                     let message = "calls are nested more than 100 deep here";

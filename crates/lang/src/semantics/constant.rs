@@ -1,16 +1,16 @@
-//! What a literal means as a value of a type.
+//! Values of literals in a type.
 
 use super::shape::Scalar;
 use crate::syntax::ast::{Constant, Literal};
 use petril_base::{Kind, Type};
 
-/// Why a literal is no value of a type, as the end of a sentence that begins with the literal.
+/// Reason why a literal is not a value of a type, as the end of a sentence that begins with the literal.
 pub type Unfit = String;
 
-/// The number of a literal as one of a type.
+/// Number that a literal stands for in a type.
 ///
 /// # Errors
-/// Why it is none.
+/// The reason, if the literal is not a value of the type.
 pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
     let ty = scalar.ty;
     let none = || format!("is no value of type `{scalar}`");
@@ -41,7 +41,7 @@ pub fn number(constant: &Constant, scalar: &Scalar) -> Result<i128, Unfit> {
     }
 }
 
-/// The next type of the same kind that has a literal.
+/// Next wider type of the same kind that has the literal's number.
 pub fn wider(constant: &Constant, scalar: &Scalar) -> Option<Type> {
     let Some(Literal::Integer(number)) = constant.literal else { return None };
     let ty = scalar.ty;
@@ -52,7 +52,7 @@ pub fn wider(constant: &Constant, scalar: &Scalar) -> Option<Type> {
     types.find(|ty| scalar.enumeration.is_none() && ty.holds(number))
 }
 
-/// Microseconds in whole milliseconds.
+/// Converts microseconds to milliseconds, if these are whole.
 pub fn milliseconds(micros: i128) -> Result<i128, Unfit> {
     let whole = micros % 1000 == 0;
     whole.then_some(micros / 1000).ok_or_else(|| "is no whole number of milliseconds".to_owned())

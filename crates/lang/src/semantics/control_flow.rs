@@ -1,4 +1,4 @@
-//! The control-flow graph of an instruction list. A parenthesis is one node: no control passes its ends.
+//! Control-flow graph of an instruction list. A parenthesis is one node: no control passes its ends.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +7,10 @@ use petgraph::visit::Dfs;
 
 use crate::syntax::ast::{Condition, Instruction, Operation};
 
-/// Node `i` is instruction `i`; one more node stands for the end of the program.
+/// Control-flow graph: node `i` is instruction `i`; one more node stands for the end of the program.
 pub type ControlFlow = DiGraph<(), ()>;
 
-/// The first instruction of each label.
+/// First instruction of each label, by the label's key.
 pub fn labels(body: &[Instruction]) -> BTreeMap<String, usize> {
     let mut labels = BTreeMap::new();
     for (i, instruction) in body.iter().enumerate() {
@@ -21,7 +21,7 @@ pub fn labels(body: &[Instruction]) -> BTreeMap<String, usize> {
     labels
 }
 
-/// The graph of a list. A jump to a label that does not exist, which is reported elsewhere, goes to the end.
+/// Builds the graph of a list. A jump to a label that does not exist, which is reported elsewhere, goes to the end.
 pub fn graph(body: &[Instruction]) -> ControlFlow {
     let labels = labels(body);
     let end = body.len();
@@ -46,7 +46,7 @@ pub fn graph(body: &[Instruction]) -> ControlFlow {
     graph
 }
 
-/// Whether the graph tells where control really goes: every line can be read, and every jump has its label.
+/// Whether the graph is exact: every line can be read, and every jump has its label.
 pub fn is_known(body: &[Instruction]) -> bool {
     let labels = labels(body);
     body.iter().all(|instruction| match &instruction.operation {
@@ -56,7 +56,7 @@ pub fn is_known(body: &[Instruction]) -> bool {
     })
 }
 
-/// Which nodes control can come to, as one flag per node.
+/// Reachable nodes, as one flag per node.
 pub fn reachable(graph: &ControlFlow) -> Vec<bool> {
     let mut reachable = vec![false; graph.node_count()];
     let mut search = Dfs::new(graph, NodeIndex::new(0));

@@ -1,4 +1,4 @@
-//! Declarations to shapes and values at power-on.
+//! Resolution of declarations to shapes and values at power-on.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -11,13 +11,13 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_base::{Kind, Type};
 
-/// A variable may have as many values as this, and an enumeration too.
+/// Maximum number of elementary values of a variable, and of values of an enumeration.
 const MAX_ELEMENTS: usize = 1 << 16;
 
-/// Types may be nested this deep, through all their names. The limit keeps everything that walks them within its stack.
+/// Maximum nesting depth of types, through all their names. The limit keeps recursion over types within its stack.
 const MAX_DEPTH: usize = 100;
 
-/// The types of a file, and what else a declaration may name.
+/// Types of a file, with everything else that a declaration may name.
 pub struct Declare<'a> {
     declared: BTreeMap<String, &'a TypeDeclaration>,
     resolved: BTreeMap<String, Option<(Shape, Value)>>,
@@ -26,15 +26,15 @@ pub struct Declare<'a> {
     /// Every enumeration, for the names of its values.
     pub enumerations: Vec<Rc<Enumeration>>,
     pub diagnostics: Vec<Diagnostic>,
-    /// The variables of the units, once they are known.
+    /// Variables of the units, once they are known.
     pub known: Option<Vec<Symbols>>,
-    /// Whether they were needed before they were known.
+    /// Whether the variables of the units were needed before they were known.
     pub needs_units: bool,
 }
 
 impl<'a> Declare<'a> {
-    /// The types of a file; `blocks` are the function blocks that exist, `known` the variables of all units, once they have
-    /// been read.
+    /// Resolves the types of a file; `blocks` are the existing function blocks, `known` the variables of all units,
+    /// once they have been read.
     pub fn new(types: &'a [TypeDeclaration], blocks: &'a BTreeMap<String, PouId>, known: Option<Vec<Symbols>>) -> Self {
         let mut declare = Self {
             declared: BTreeMap::new(),
@@ -68,7 +68,7 @@ impl<'a> Declare<'a> {
         self.diagnostics.push(more(Diagnostic::new(code, span, message)));
     }
 
-    /// What a type specification stands for, and the value that its variables have at power-on. `None` has been reported.
+    /// Shape that a type specification stands for, and value of its variables at power-on. `None` has been reported.
     pub fn shape(&mut self, spec: &TypeSpec, constants: Constants<'_>) -> Option<(Shape, Value)> {
         match spec {
             TypeSpec::Named(name) => self.named(name),
@@ -98,7 +98,7 @@ impl<'a> Declare<'a> {
                     let (lower, upper) = self.range(range, constants)?;
                     let whole = i64::try_from(lower).ok().zip(i64::try_from(upper).ok());
                     let is_small = |&(lower, upper): &(i64, i64)| {
-                        // So that no length and no distance overflows.
+                        // Keeps lengths and distances from overflowing.
                         lower.unsigned_abs().max(upper.unsigned_abs()) < 1 << 62 && upper - lower < MAX_ELEMENTS as i64
                     };
                     numbers.extend(whole.filter(is_small));
@@ -277,7 +277,7 @@ impl<'a> Declare<'a> {
         });
     }
 
-    /// The numbers of a range, which is not empty.
+    /// Bounds of a range, which is not empty. `None` has been reported.
     fn range(&mut self, range: &Range, constants: Constants<'_>) -> Option<(i128, i128)> {
         let mut end = |bound: &Name| {
             let number = match Literal::read(&bound.text) {
@@ -313,7 +313,7 @@ fn repeated(value: &Value, times: usize) -> Value {
     }
 }
 
-/// Whether a name is that of a value of an enumeration.
+/// Enumerations that have a value with this name, with its number.
 pub fn enumerator(enumerations: &[Rc<Enumeration>], name: &str) -> Vec<(Rc<Enumeration>, usize)> {
     enumerations.iter().filter_map(|e| Some((e.clone(), e.find(name)?))).collect()
 }

@@ -1,22 +1,22 @@
-//! What an instruction does to the current result.
+//! Effect of an instruction on the current result.
 
 use super::Context;
 use super::shape::Shape;
 use super::typing::is_standard;
 use crate::syntax::ast::{Condition, Instruction, Operand, Operation, Part, Path, Verb};
 
-/// What the current result is behind an instruction.
+/// Current result after an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leaves {
-    /// What it was.
+    /// Unchanged.
     Same,
-    /// A new value.
+    /// New value.
     Value,
-    /// Nothing that is defined.
+    /// Undefined.
     Nothing,
 }
 
-/// Whether an instruction uses the current result, and what it leaves.
+/// Whether an instruction uses the current result, and the current result after it.
 pub fn effect(instruction: &Instruction, context: &Context<'_>) -> (bool, Leaves) {
     match &instruction.operation {
         Some(Operation::Simple { operator, operands }) => match operator.verb {
@@ -34,7 +34,7 @@ pub fn effect(instruction: &Instruction, context: &Context<'_>) -> (bool, Leaves
         }
         Some(Operation::Call { condition, .. }) => (*condition != Condition::Always, Leaves::Nothing),
         Some(Operation::Function { name, arguments }) => {
-            // Of a word that nobody knows, nobody knows what it would use.
+            // Whether an unknown word would use the current result is not known.
             let is_known = context.project.find(&name.text).is_some() || is_standard(&name.key());
             (is_known && !arguments.enclosed, Leaves::Value)
         }
@@ -43,7 +43,7 @@ pub fn effect(instruction: &Instruction, context: &Context<'_>) -> (bool, Leaves
     }
 }
 
-/// The function block that an operand is an instance of.
+/// Function block that an operand is an instance of.
 pub fn block(operand: &Operand, context: &Context<'_>) -> Option<super::PouId> {
     let Operand::Variable(path) = operand else { return None };
     match shape(path, context)? {
@@ -52,7 +52,7 @@ pub fn block(operand: &Operand, context: &Context<'_>) -> Option<super::PouId> {
     }
 }
 
-/// What a path leads to, if it leads anywhere. Nothing is reported.
+/// Shape of a path, if it can be resolved. Nothing is reported.
 pub fn shape(path: &Path, context: &Context<'_>) -> Option<Shape> {
     let (_, _, symbol) = context.project.variable(context.id, &path.root.text)?;
     path.parts.iter().try_fold(symbol.shape.clone()?, |shape, part| match (part, shape) {

@@ -1,4 +1,4 @@
-//! How large a program is when all its calls are written out. Two calls in each of thirty units are a thousand million.
+//! Size of a program when all its calls are inlined. Two calls in each of thirty units are a thousand million.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +9,13 @@ use super::symbols::Section;
 use crate::syntax::ast::{Operand, Operation, PouKind, with_nested};
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// A program may have as many instructions, and as many values, as this.
+/// Maximum number of instructions, and of values, of a program.
 const MAX: usize = 1 << 20;
 
-/// The instructions and elementary values of a unit with all it calls.
+/// Number of instructions and of elementary values of a unit with all it calls.
 type Extent = (usize, usize);
 
-/// Reports a program that is too large. `needed` are its units, those that are called before those that call.
+/// Reports a program that is too large. `needed` are its units, callees before callers.
 pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic>) {
     let mut known = BTreeMap::new();
     for &id in needed {
@@ -51,7 +51,7 @@ pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic
 
 fn instructions(project: &Project<'_>, id: PouId, known: &BTreeMap<PouId, Extent>) -> usize {
     let context = project.context(id);
-    // Variables that begin anew with every call are given their values there.
+    // Variables that are initialised at every call are given their values there.
     let begins_anew = |section| section == Section::Temp || context.pou.kind == PouKind::Function;
     let anew = context.symbols.list().iter().filter(|symbol| begins_anew(symbol.section));
     let mut sum = anew

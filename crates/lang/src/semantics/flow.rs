@@ -1,4 +1,4 @@
-//! Where control goes in a unit, and where the current result goes with it. Worked out once for all that asks.
+//! Control flow of a unit, and flow of the current result along it. Computed once for all users.
 
 use petgraph::Direction;
 use petgraph::graph::NodeIndex;
@@ -7,14 +7,15 @@ use super::Context;
 use super::control_flow::{self, ControlFlow};
 use super::effect::{Leaves, effect};
 
-/// The flow of an instruction list. Positions are those of its instructions; one more stands for its end.
+/// Flow of an instruction list. Positions are those of its instructions; one more stands for its end.
 pub struct Flow {
     pub graph: ControlFlow,
-    /// Whether each instruction uses the current result, and what it leaves.
+    /// Whether each instruction uses the current result, and the current result after it.
     pub effects: Vec<(bool, Leaves)>,
-    /// Where control can come to.
+    /// Whether each position is reachable.
     pub reachable: Vec<bool>,
-    /// Where the current result is needed: by this instruction, or behind it before it is replaced.
+    /// Whether the current result is live before each position: used by this instruction, or after it before it is
+    /// replaced.
     pub needed: Vec<bool>,
 }
 

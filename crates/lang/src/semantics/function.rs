@@ -1,6 +1,6 @@
-//! The functions of two operands, whether written as operators or called by their names.
+//! Functions of two operands, whether written as operators or called by their names.
 
-/// The functions of CR and an operand.
+/// Function of the current result (CR) and an operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
     /// Conjunction, bit by bit.
@@ -42,7 +42,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// All of them.
+    /// Every function.
     pub const ALL: [Self; 18] = [
         Self::And,
         Self::Or,
@@ -64,7 +64,7 @@ impl Function {
         Self::Mod,
     ];
 
-    /// The operator's word.
+    /// Word of the operator.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -89,13 +89,13 @@ impl Function {
         }
     }
 
-    /// Whether it gives a `BOOL`, whatever the type of its operands.
+    /// Whether the function is a comparison, which gives a `BOOL` whatever the type of its operands.
     #[must_use]
     pub fn compares(self) -> bool {
         matches!(self, Self::Gt | Self::Ge | Self::Eq | Self::Ne | Self::Le | Self::Lt)
     }
 
-    /// Whether its operand says how far CR is shifted.
+    /// Whether the function is a shift or rotation, whose operand is the distance.
     #[must_use]
     pub fn shifts(self) -> bool {
         matches!(self, Self::Shl | Self::Shr | Self::Rol | Self::Ror)

@@ -1,6 +1,6 @@
-//! Which types belong together: variables for types, made equal step by step.
+//! Type inference by unification: type variables are made equal step by step (union-find).
 //!
-//! A literal like `5` has no type of its own: it takes that of what it is used with.
+//! A literal like `5` has no type of its own: it takes that of the operand it is used with.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -13,7 +13,7 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_base::{Kind, Type};
 
-/// What is known of a type, and where that was said.
+/// Known type of a type variable, and the place that says so.
 #[derive(Clone, Debug)]
 pub struct Known {
     pub scalar: Scalar,
@@ -21,16 +21,16 @@ pub struct Known {
 }
 
 impl Known {
-    /// Whether it is the language that says so, and no place in the text.
+    /// Whether the language determines the type, and no place in the text.
     pub fn is_nowhere(&self) -> bool {
         self.span == NOWHERE
     }
 }
 
-/// Where nothing stands.
+/// Span of a type that no place in the text determines.
 pub const NOWHERE: Span = Span { start: 0, end: 0 };
 
-/// A set of types.
+/// Class of types that an operator accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// `BOOL`, `BYTE`, ….
@@ -39,7 +39,7 @@ pub enum Class {
     Magnitudes,
     /// Integers.
     Integers,
-    /// Whatever has an order: all but enumerations.
+    /// Types with an order: all but enumerations.
     Ordered,
 }
 
@@ -55,8 +55,8 @@ impl Class {
             }
     }
 
-    /// Whether an operator can come out differently in two types of the class that both have the operands: a result may
-    /// overflow, or a complement, shift or rotation reaches the highest bit.
+    /// Whether the value of an operator can differ between two types of the class that both have the operands: a result
+    /// may overflow, or a complement, shift or rotation reaches the highest bit.
     fn depends_on_type(self, operator: &str) -> bool {
         let operators: &[&str] = match self {
             Self::Bits => &["NOT", "LDN", "ORN", "XORN", "SHL", "ROL", "ROR"],
@@ -67,7 +67,7 @@ impl Class {
     }
 }
 
-/// The variables and what is asked of them.
+/// Type variables and the constraints on them.
 #[derive(Default)]
 pub struct Inference {
     parent: Vec<usize>,
@@ -77,14 +77,14 @@ pub struct Inference {
 }
 
 impl Inference {
-    /// A type nothing is known of.
+    /// Adds an unconstrained type variable.
     pub fn fresh(&mut self) -> TypeId {
         self.parent.push(self.parent.len());
         self.known.push(None);
         TypeId(self.parent.len() - 1)
     }
 
-    /// The type of a variable. Of a subrange only the whole type counts.
+    /// Adds the type of a variable. Of a subrange only the base type counts.
     pub fn of(&mut self, scalar: &Scalar, span: Span) -> TypeId {
         let id = self.fresh();
         let range = if scalar.enumeration.is_some() { scalar.range } else { None };
@@ -92,12 +92,12 @@ impl Inference {
         id
     }
 
-    /// The type `BOOL`.
+    /// Adds the type `BOOL`.
     pub fn boolean(&mut self, span: Span) -> TypeId {
         self.of(&Scalar::new(Type::BOOL), span)
     }
 
-    /// The type of a literal, and its position among the literals.
+    /// Adds the type of a literal; returns it with the position among the literals.
     pub fn literal(
         &mut self,
         constant: &Constant,
@@ -120,7 +120,7 @@ impl Inference {
         (id, self.literals.len() - 1)
     }
 
-    /// Asks that a type be of a class, for an operator.
+    /// Requires that a type be of a class, for an operator.
     pub fn demand(&mut self, id: TypeId, class: Class, span: Span, operator: impl Into<String>) {
         self.classes.push((id.0, class, span, operator.into()));
     }
@@ -133,10 +133,10 @@ impl Inference {
         at
     }
 
-    /// Makes two types equal.
+    /// Unifies two types: makes them equal.
     ///
     /// # Errors
-    /// What is known of each, if that differs.
+    /// The known types of both, if they differ.
     pub fn unify(&mut self, a: TypeId, b: TypeId) -> Result<(), Box<(Known, Known)>> {
         let (a, b) = (self.root(a.0), self.root(b.0));
         if let (Some(left), Some(right)) = (&self.known[a], &self.known[b])
@@ -145,7 +145,7 @@ impl Inference {
             return Err(Box::new((left.clone(), right.clone())));
         }
         if a != b {
-            // What stands first is where people look.
+            // Of two places, the first in the text is reported.
             let later = match (&self.known[a], &self.known[b]) {
                 (Some(left), Some(right)) => !right.is_nowhere() && (left.is_nowhere() || right.span < left.span),
                 (left, _) => left.is_none(),
@@ -158,7 +158,7 @@ impl Inference {
         Ok(())
     }
 
-    /// Settles every type and literal: the patterns of the literals, and what does not fit.
+    /// Solves the constraints: returns every type, the patterns of the literals, and diagnostics.
     pub fn settle(mut self) -> (Vec<Type>, Vec<u64>, Vec<Diagnostic>) {
         let mut found = self.defaults();
         for (at, class, span, operator) in std::mem::take(&mut self.classes) {
@@ -205,8 +205,8 @@ impl Inference {
         (types.collect(), patterns, found)
     }
 
-    /// Literals that meet nothing that has a type are `INT`, or of the first larger type that has them all; with operators on
-    /// bits, of the first type of bits. A warning says so where an operator's value depends on it.
+    /// Defaults of literals that meet no operand with a type: `INT`, or the first larger type that has them all; with
+    /// operators on bits, the first type of bits. A warning is given where an operator's value depends on the type.
     fn defaults(&mut self) -> Vec<Diagnostic> {
         let mut open: BTreeMap<usize, (Vec<i128>, Constant)> = BTreeMap::new();
         for i in 0..self.literals.len() {
@@ -253,7 +253,7 @@ impl Inference {
     }
 }
 
-/// What to do where an operator has no meaning for a type.
+/// Help where an operator has no meaning for a type.
 fn advice(class: Class, scalar: &Scalar) -> String {
     let (ty, width) = (scalar.ty, scalar.ty.width);
     let named = |kind| Type::new(kind, width);

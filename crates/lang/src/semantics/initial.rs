@@ -1,4 +1,4 @@
-//! Initial values: what is written behind `:=` in a declaration.
+//! Initial values, written after `:=` in a declaration.
 
 use super::constant::{number, wider};
 use super::declare::Declare;
@@ -8,7 +8,7 @@ use crate::syntax::ast::{Initial, InitialKind, Literal, Name};
 use petril_base::Type;
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// The constants that a declaration may name: those of its unit, and global ones.
+/// Constants that a declaration may name: those of its unit, and global ones.
 #[derive(Clone, Copy, Default)]
 pub struct Constants<'s> {
     own: Option<&'s Symbols>,
@@ -16,7 +16,7 @@ pub struct Constants<'s> {
 }
 
 impl<'s> Constants<'s> {
-    /// Where there are none, in types.
+    /// No constants, as in the declarations of types.
     pub fn none() -> Self {
         Self::default()
     }
@@ -25,7 +25,7 @@ impl<'s> Constants<'s> {
         Self { own: Some(own), global: Some(global) }
     }
 
-    /// The number of a constant, if it is known, and its type.
+    /// Number of a constant, if it is known, and its type.
     pub fn number(self, name: &str) -> Option<(i128, Type)> {
         let (_, symbol) = [self.own, self.global].into_iter().flatten().find_map(|symbols| symbols.find(name))?;
         constant(symbol)
@@ -33,7 +33,7 @@ impl<'s> Constants<'s> {
 }
 
 impl Declare<'_> {
-    /// A value written for a shape. `None` has been reported.
+    /// Reads the initial value of a variable of this shape. `None` has been reported.
     pub fn value(&mut self, initial: &Initial, shape: &Shape, constants: Constants<'_>) -> Option<Value> {
         let unfit = |what: &str| {
             let message = format!("{what} is no value of type `{shape}`");
@@ -134,7 +134,7 @@ impl Declare<'_> {
 }
 
 impl Declare<'_> {
-    /// The value that an instance's declaration gives one of its variables.
+    /// Reads the initial value that an instance's declaration gives one of its variables.
     fn input(
         &mut self,
         name: &Name,

@@ -1,10 +1,10 @@
-//! The time from one scan to the next, where a task says so.
+//! Scan time, where a task gives it.
 
 use super::constant::milliseconds;
 use crate::syntax::ast::{Literal, Name, Task, Unit};
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// The interval of the task that runs a program, in milliseconds.
+/// Interval of the task that runs a program, in milliseconds.
 pub fn of(unit: &Unit, program: &Name, found: &mut Vec<Diagnostic>) -> Option<u64> {
     let configurations = unit.configurations.iter();
     let mut tasks = configurations.flat_map(|configuration| {

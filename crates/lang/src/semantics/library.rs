@@ -1,4 +1,4 @@
-//! The standard function blocks (IEC 61131-3, 2.5.2.3), written in IL like everything else.
+//! Standard function blocks (IEC 61131-3, 2.5.2.3), written in IL like everything else.
 
 use std::sync::OnceLock;
 
@@ -11,10 +11,10 @@ const EDGES: &str = include_str!("library/edges.il");
 const COUNTERS: &str = include_str!("library/counters.il");
 const TIMERS: &str = include_str!("library/timers.il");
 
-/// The types that counters exist for, besides INT.
+/// Types that counters exist for, besides INT.
 const COUNTED: [&str; 4] = ["DINT", "LINT", "UDINT", "ULINT"];
 
-/// The text of the library.
+/// Text of the library.
 #[must_use]
 pub fn text() -> String {
     let typed = |ty: &str| {
@@ -34,15 +34,15 @@ pub fn text() -> String {
     [BISTABLES, EDGES, COUNTERS, TIMERS].concat() + &COUNTED.map(typed).concat()
 }
 
-/// The function blocks of the library.
+/// Function blocks of the library.
 pub fn unit() -> &'static Unit {
     static UNIT: OnceLock<Unit> = OnceLock::new();
     UNIT.get_or_init(|| parse(&Source::new("library", text())).0)
 }
 
-/// The variable of a timer that counts milliseconds from scan to scan while [`RUNNING`] is TRUE and it is less than `PT`.
+/// Variable of a timer that counts milliseconds from scan to scan while [`RUNNING`] is TRUE and it is less than `PT`.
 pub const CLOCK: &str = "CLOCK";
-/// The variable of a timer that says whether its clock runs.
+/// Variable of a timer that is TRUE while its clock runs.
 pub const RUNNING: &str = "RUNNING";
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! From syntax tree to checked program: names resolved, values typed, every static rule applied.
+//! Static semantics, from syntax tree to checked program: names resolved, values typed, every static rule applied.
 //!
-//! Declarations become shapes (`declare`), names symbols (`project`), instructions typed statements (`typing`); what
-//! these cannot read they report. The rules beyond that are the files `rule_….rs`, one sentence each.
+//! Declarations become shapes (`declare`), names symbols (`project`), instructions typed statements (`typing`); each
+//! reports what it cannot read. The rules beyond that are the files `rule_….rs`, one sentence each.
 
 mod address;
 mod call_graph;
@@ -66,7 +66,7 @@ use petril_base::source::Span;
 use project::Project;
 use symbols::Symbols;
 
-/// What a rule looks at: a unit, its names, and the file around it.
+/// Input of a static rule: a unit, its names, and the file around it.
 struct Context<'a> {
     project: &'a Project<'a>,
     id: PouId,
@@ -77,16 +77,16 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The flow of its instruction list.
+    /// Flow of the unit's instruction list.
     fn flow(&self) -> &Flow {
         self.flow.get_or_init(|| Flow::of(self))
     }
 }
 
-/// A rule reports what breaks it.
+/// Static rule: reports everything that breaks it.
 type Rule = fn(&Context<'_>) -> Vec<Diagnostic>;
 
-/// The static rules. They are independent: each runs whatever the others found.
+/// Static rules. Each is independent of the others, and runs whatever they found.
 const RULES: &[Rule] = &[
     rule_constants_have_values::apply,
     rule_constants_not_written::apply,
@@ -100,19 +100,19 @@ const RULES: &[Rule] = &[
     rule_result_defined::apply,
 ];
 
-/// Rules about what is allowed and probably not meant. They look at programs without errors only: of a broken line nobody
-/// knows what it would have used.
+/// Rules about what is allowed and probably not meant. Only programs without errors are checked: what a broken line
+/// would have used is not known.
 const DOUBTS: &[Rule] = &[rule_jumps_forward::apply, rule_results_used::apply, rule_variables_used::apply];
 
-/// Checks the program of a file with all it calls. It is `None` exactly if one of the diagnostics, or one found while
-/// reading the text, is an error; `clean` says that reading found none.
+/// Checks the program of a file with all it calls. The program is `None` exactly if one of the diagnostics, or one
+/// found while reading the text, is an error; `clean` says that reading found none.
 #[must_use]
 pub fn check(unit: &Unit, clean: bool) -> (Option<Program>, Vec<Diagnostic>) {
     check_unit(unit, clean, None)
 }
 
-/// As [`check`], but for the program, function block or function of this name, where one is given. What that does not need
-/// is not looked at.
+/// Checks as [`check`] does, but the program, function block or function of this name, where one is given. Everything
+/// it does not need is ignored.
 #[must_use]
 pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Program>, Vec<Diagnostic>) {
     let needed;
@@ -175,7 +175,7 @@ pub fn check_unit(unit: &Unit, clean: bool, name: Option<&str>) -> (Option<Progr
     (Some(Program { pous, entry, globals, interval }), diagnostics)
 }
 
-/// No unit of the file has the name that was asked for.
+/// Error that no unit of the file has the requested name.
 fn no_unit(unit: &Unit, name: &str) -> Diagnostic {
     let first = unit.pous.first().map_or(Span::default(), |pou| pou.name.span);
     let names = unit.pous.iter().map(|pou| pou.name.text.as_str());
@@ -183,7 +183,8 @@ fn no_unit(unit: &Unit, name: &str) -> Diagnostic {
     Diagnostic::new(Code::NameNotDeclared, first, message).here("the first one is here").suggest(name, names)
 }
 
-/// The one PROGRAM of the file; where there is none, the last function block or function that no other calls.
+/// Unit to check: the PROGRAM of the file; where there is none, the last function block or function that no other
+/// calls.
 fn entry(project: &Project<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<PouId> {
     let own = || project.unit.pous.iter().enumerate().map(|(i, pou)| (PouId(i), pou));
     let mut programs = own().filter(|(_, pou)| pou.kind == PouKind::Program);
@@ -223,7 +224,7 @@ fn foreign(pou: &ast::Pou, language: &str, span: Span) -> Diagnostic {
         .help("many engineering tools convert a unit to IL; a unit that does not need this one is checked alone by `--pou NAME`")
 }
 
-/// In-out variables of the unit that nothing calls.
+/// Reports in-out variables of the unit that nothing calls.
 fn without_caller<'a>(project: &'a Project<'_>, entry: PouId) -> impl Iterator<Item = Diagnostic> + 'a {
     let in_outs = project.symbols(entry).list().iter().filter(|symbol| symbol.section == Section::InOut);
     in_outs.map(move |symbol| {
@@ -238,7 +239,7 @@ fn without_caller<'a>(project: &'a Project<'_>, entry: PouId) -> impl Iterator<I
     })
 }
 
-/// Units of the file that are not needed.
+/// Reports units of the file that are not needed.
 fn not_checked<'a>(project: &'a Project<'_>, needed: &'a [PouId]) -> impl Iterator<Item = Diagnostic> + 'a {
     let needed: BTreeSet<PouId> = needed.iter().copied().collect();
     let others = project.unit.pous.iter().enumerate().filter(move |(i, pou)| {
@@ -255,7 +256,7 @@ fn variables(symbols: &Symbols) -> Vec<Variable> {
     let variables = symbols.list().iter().map(|symbol| Variable {
         name: symbol.name.clone(),
         section: symbol.section,
-        // A broken declaration has been reported, and no program comes of it.
+        // A broken declaration has been reported, and the program is refused.
         shape: symbol.shape.clone().unwrap_or(Shape::Scalar(Scalar::new(Type::BOOL))),
         initial: symbol.initial.clone(),
         area: symbol.area(),
@@ -265,7 +266,7 @@ fn variables(symbols: &Symbols) -> Vec<Variable> {
     variables.collect()
 }
 
-/// The label's instruction.
+/// Position of the instruction with a label.
 fn target(labels: &BTreeMap<String, usize>, name: &Name) -> Option<usize> {
     labels.get(&name.key()).copied()
 }

@@ -1,12 +1,12 @@
-//! The part of a file that one of its units needs. Where a unit is chosen by name, nothing else is looked at: a project may
-//! hold thousands of declarations, many of what is not modelled, that have nothing to do with it.
+//! Part of a file that one of its units needs. Where a unit is chosen by name, everything else is ignored: a project
+//! may hold thousands of declarations, many of what is not modelled, that have nothing to do with it.
 
 use std::collections::BTreeSet;
 
 use crate::syntax::ast::{Name, Unit, VarBlock, VarKind, key};
 
-/// The file without the units, types and global variables that the unit of this name cannot reach. Whatever is named
-/// anywhere in something that is needed counts as needed; so do variables at addresses, which can be used without a name.
+/// Removes the units, types and global variables that the unit of this name cannot reach. Whatever is named anywhere in
+/// a needed declaration counts as needed; so do variables at addresses, which can be used without a name.
 pub fn by(unit: &Unit, name: &str) -> Unit {
     let mut words = BTreeSet::from([key(name)]);
     let globals = unit.globals.iter().flat_map(|block| &block.declarations);

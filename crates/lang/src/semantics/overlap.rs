@@ -1,7 +1,7 @@
-//! Variables whose addresses are the same place, or parts of it: they would change together, which is not modelled.
+//! Variables whose addresses overlap: they would change together, which is not modelled.
 //!
-//! How addresses of different sizes lie is up to the controller (IEC 61131-3, 2.4.1.1). On most, `%QX1.3` is a bit of the byte
-//! `%QB1`; a word `%QW1` begins there or, where numbers count words, two bytes from the beginning.
+//! The layout of addresses of different sizes is up to the controller (IEC 61131-3, 2.4.1.1). On most, `%QX1.3` is a
+//! bit of the byte `%QB1`; a word `%QW1` begins there or, where numbers count words, two bytes from the beginning.
 
 use std::collections::BTreeSet;
 
@@ -11,20 +11,20 @@ use super::shape::{PouId, Shape, elements};
 use super::symbols::{Symbol, Symbols};
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// Where an address lies: an area, the leading numbers of a hierarchical address, and bits.
+/// Memory at an address: an area, the leading numbers of a hierarchical address, and bits.
 struct Place<'a> {
     symbol: &'a Symbol,
     location: &'a Location,
     memory: (Area, Vec<u64>),
-    /// The bits that its size letter says, if it has no more.
+    /// Number of bits by the size letter, if the variable has no more.
     plain: Option<u64>,
-    /// From the first bit to behind the last, if numbers count bytes.
+    /// Range of bits, the end exclusive, if numbers count bytes.
     by_bytes: (u64, u64),
-    /// The same if numbers count units of the size.
+    /// Range of bits, the end exclusive, if numbers count units of the size.
     by_size: (u64, u64),
 }
 
-/// Reports global variables, and variables of the units that are needed, which lie in the same place.
+/// Reports global variables, and variables of the needed units, whose memory overlaps.
 pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic>) {
     let symbols = needed.iter().map(|&id| project.symbols(id)).chain([&project.globals]);
     let mut places: Vec<Place<'_>> = symbols.flat_map(Symbols::list).filter_map(place).collect();
@@ -37,7 +37,7 @@ pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic
     let mut doubtful = BTreeSet::new();
     for (first, second) in pairs {
         let (first, second) = (&places[first], &places[second]);
-        // Nobody means words to begin in the middle of one another: who numbers them 1, 2, 3 counts words.
+        // Words are not meant to begin in the middle of one another: numbers 1, 2, 3 count words.
         let alike = first.plain.is_some() && first.plain == second.plain;
         let [by_bytes, by_size] = [meet(first.by_bytes, second.by_bytes), meet(first.by_size, second.by_size)];
         let (name, other) = (&second.symbol.name, &first.symbol.name);
@@ -69,7 +69,7 @@ pub fn check(project: &Project<'_>, needed: &[PouId], found: &mut Vec<Diagnostic
     }
 }
 
-/// The pairs of places that share a bit, the earlier in the text first.
+/// Pairs of places that share a bit, the earlier in the text first.
 fn overlaps(places: &[Place<'_>], bits: impl Fn(&Place<'_>) -> (u64, u64)) -> Vec<(usize, usize)> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by_key(|&i| (&places[i].memory, bits(&places[i])));
@@ -79,7 +79,7 @@ fn overlaps(places: &[Place<'_>], bits: impl Fn(&Place<'_>) -> (u64, u64)) -> Ve
         let is_open =
             |&i: &usize| places[i].memory == places[next].memory && bits(&places[i]).1 > bits(&places[next]).0;
         open.retain(is_open);
-        // Of many that share one place, each is named with one other.
+        // Of many variables that share one place, each is paired with few others.
         pairs.extend(open.iter().take(8).map(|&i| (i.min(next), i.max(next))));
         open.push(next);
     }
@@ -107,7 +107,7 @@ fn place(symbol: &Symbol) -> Option<Place<'_>> {
     Some(Place { symbol, location, memory: (area, numbers), plain, by_bytes: to(by_bytes), by_size: to(by_size) })
 }
 
-/// How many bits a variable has.
+/// Number of bits of a variable.
 fn bits(shape: &Shape) -> u64 {
     match shape {
         Shape::Scalar(scalar) => u64::from(scalar.ty.width),

@@ -1,4 +1,4 @@
-//! The checked program: names resolved to variables, labels to positions, every value typed.
+//! Checked program: names resolved to variables, labels to positions, every value typed.
 
 use std::collections::BTreeMap;
 
@@ -10,104 +10,104 @@ pub use crate::syntax::ast::{Condition, PouKind};
 use petril_base::Type;
 use petril_base::source::Span;
 
-/// A program that satisfies every static rule, with all it calls.
+/// Program that satisfies every static rule, with all it calls.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// The units it needs.
+    /// Units that the program needs.
     pub pous: BTreeMap<PouId, Pou>,
-    /// The one that is executed once in every scan.
+    /// Unit that is executed once in every scan.
     pub entry: PouId,
-    /// The global variables.
+    /// Global variables.
     pub globals: Vec<Variable>,
-    /// The time from one scan to the next, in milliseconds, if a task says so.
+    /// Scan time in milliseconds, if a task gives it.
     pub interval: Option<u64>,
 }
 
-/// A program organisation unit.
+/// Program organisation unit.
 #[derive(Clone, Debug)]
 pub struct Pou {
-    /// Its name.
+    /// Name of the unit.
     pub name: String,
-    /// Program, function or function block.
+    /// Kind of the unit.
     pub kind: PouKind,
-    /// Whether it is one of the standard's, which have no text in the user's file.
+    /// Whether the unit is one of the standard's, which have no text in the user's file.
     pub is_library: bool,
-    /// Its variables in the order of declaration.
+    /// Variables in the order of declaration.
     pub variables: Vec<Variable>,
-    /// Its instructions.
+    /// Instructions in their order.
     pub body: Vec<Statement>,
-    /// What each [`TypeId`] of the body is.
+    /// Type of each [`TypeId`] of the body.
     pub types: Vec<Type>,
-    /// What each [`Operand::Literal`] of the body is, as a pattern.
+    /// Value of each [`Operand::Literal`] of the body, as a pattern.
     pub literals: Vec<u64>,
 }
 
-/// A variable of a unit.
+/// Variable of a unit.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// The name as it was declared.
+    /// Name as it was declared.
     pub name: String,
-    /// In which block.
+    /// Section that declares the variable.
     pub section: Section,
-    /// What it is.
+    /// Shape: an elementary type, an array, a structure or an instance.
     pub shape: Shape,
-    /// Its value at power-on, or at each call.
+    /// Initial value, at power-on or at each call.
     pub initial: Value,
-    /// The area of its address.
+    /// Area of the address.
     pub area: Option<Area>,
-    /// Its address in the one spelling that all its spellings share.
+    /// Address in its normalised spelling.
     pub address: Option<String>,
-    /// Its declaration.
+    /// Span of the declaration.
     pub span: Span,
 }
 
-/// What a variable of flat code is for.
+/// Role of a variable of flat code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// `VAR_INPUT`: given by the plant before every scan.
+    /// `VAR_INPUT`: set by the plant before every scan.
     Input,
     /// `VAR`: keeps its value from scan to scan.
     Memory,
-    /// `VAR_OUTPUT`: taken by the plant after every scan; keeps its value too.
+    /// `VAR_OUTPUT`: read by the plant after every scan; keeps its value too.
     Output,
     /// `CONSTANT`: never changes.
     Constant,
-    /// Holds a value for a while, like that of a parenthesis or of a function's variable; nothing of it survives the scan.
+    /// Temporary value, like that of a parenthesis or of a function's variable; nothing of it survives the scan.
     Buffer,
 }
 
-/// A type, as a position in [`Pou::types`].
+/// Type, as a position in [`Pou::types`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TypeId(pub usize);
 
-/// An instruction and where it stands.
+/// Instruction with its span.
 #[derive(Clone, Debug)]
 pub struct Statement {
-    /// What it does.
+    /// Action of the instruction.
     pub action: Action,
-    /// Where it stands; for a parenthesis its first line.
+    /// Span of the instruction; for a parenthesis of its first line.
     pub span: Span,
 }
 
-/// What an instruction does to the memory and the current result (CR).
+/// Action of an instruction: its effect on the memory and the current result (CR).
 #[derive(Clone, Debug)]
 pub enum Action {
     /// `LD`, `LDN`
     Load {
-        /// The type of operand and CR.
+        /// Type of operand and CR.
         ty: TypeId,
-        /// Modifier N.
+        /// Whether modifier N is set.
         negated: bool,
-        /// What is loaded.
+        /// Operand loaded.
         operand: Operand,
     },
     /// `ST`, `STN`
     Store {
-        /// The type of place and CR.
+        /// Type of place and CR.
         ty: TypeId,
-        /// Modifier N.
+        /// Whether modifier N is set.
         negated: bool,
-        /// Where to.
+        /// Variable or part of one that is written.
         place: Place,
     },
     /// `S`
@@ -116,111 +116,111 @@ pub enum Action {
     Reset(Place),
     /// `NOT`
     Complement(TypeId),
-    /// An operator with its operand.
+    /// Operator with its operand.
     Combine {
-        /// The function.
+        /// Function applied.
         function: Function,
-        /// The type of CR and operand.
+        /// Type of CR and operand.
         ty: TypeId,
-        /// Modifier N.
+        /// Whether modifier N is set.
         negated: bool,
-        /// The right operand.
+        /// Right operand.
         operand: Operand,
     },
-    /// An operator deferred to the end of a parenthesis.
+    /// Operator deferred to the end of a parenthesis.
     Defer {
-        /// The function.
+        /// Function applied.
         function: Function,
-        /// The type of CR and of the value of the parenthesis.
+        /// Type of CR and of the value of the parenthesis.
         ty: TypeId,
-        /// Modifier N: the value of the parenthesis is complemented.
+        /// Whether modifier N is set: the value of the parenthesis is complemented.
         negated: bool,
-        /// The instructions inside.
+        /// Instructions inside the parenthesis.
         body: Vec<Statement>,
-        /// The closing parenthesis.
+        /// Span of the closing parenthesis.
         close: Span,
     },
-    /// `JMP…`: go on at this position of the unit's body, its length standing for the end.
+    /// `JMP…`: jump to this position of the unit's body, whose length stands for the end.
     Jump(Condition, usize),
     /// `RET…`
     Return(Condition),
-    /// A call of a function block or of a function of the file.
+    /// Call of a function block or of a function of the file.
     Call(Box<Call>),
-    /// A standard function.
+    /// Call of a standard function.
     Standard(Box<Standard>),
 }
 
-/// Where a value comes from.
+/// Operand: a variable or a literal.
 #[derive(Clone, Debug)]
 pub enum Operand {
-    /// A variable.
+    /// Variable or a part of one.
     Place(Place),
-    /// A literal, as a position in [`Pou::literals`].
+    /// Literal, as a position in [`Pou::literals`].
     Literal(usize),
 }
 
-/// A variable or a part of one.
+/// Variable or a part of one.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// The variable it is part of.
+    /// Variable that the place is part of.
     pub root: Root,
-    /// The way from there.
+    /// Steps from the variable to the part.
     pub steps: Vec<Step>,
-    /// What it is.
+    /// Shape of the part.
     pub shape: Shape,
-    /// Where it is named.
+    /// Span of the path in the text.
     pub span: Span,
 }
 
 impl Place {
-    /// What is known of an elementary one; another has been refused where only such may stand.
+    /// Scalar of an elementary place; others have been refused where only elementary ones may stand.
     #[must_use]
     pub fn scalar(&self) -> Scalar {
         self.shape.scalar().cloned().unwrap_or_else(|| Scalar::new(Type::BOOL))
     }
 }
 
-/// A variable.
+/// Variable at the root of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Root {
-    /// One of the unit's own, by position.
+    /// Variable of the unit, by position.
     Own(usize),
-    /// A global one, by position.
+    /// Global variable, by position.
     Global(usize),
 }
 
-/// A step from a variable to a part of it.
+/// Step from a variable to a part of it.
 #[derive(Clone, Debug)]
 pub enum Step {
-    /// The member of a structure, or the variable of a function block, at this position.
+    /// Member of a structure, or variable of a function block, at this position.
     Member(usize),
-    /// The element with these indices, one for each range.
+    /// Element with these indices, one for each range.
     Index(Vec<Index>),
 }
 
-/// One index.
+/// Index of an array.
 #[derive(Clone, Debug)]
 pub enum Index {
-    /// A number, inside its range.
+    /// Number, inside its range.
     Constant(i64),
-    /// An elementary variable.
+    /// Elementary variable.
     Variable(Place),
 }
 
-/// A call.
+/// Call of a function block or a function of the file.
 #[derive(Clone, Debug)]
 pub struct Call {
-    /// When it calls; parameters are handed over only then.
+    /// Condition of the call; parameters are passed only if it holds.
     pub condition: Condition,
-    /// What is called.
+    /// Called unit.
     pub callee: Callee,
-    /// The variable that CR is stored in first, and its type.
+    /// Variable of the callee that CR is stored in first, and its type.
     pub result_to: Option<(usize, TypeId)>,
-    /// Values for variables of the callee, in the order of the text.
+    /// Values for inputs of the callee (by the position of the variable), in the order of the text.
     pub inputs: Vec<(usize, Feed)>,
-    /// Variables of the caller for the in-out variables of the callee.
+    /// Variables of the caller bound to the in-out variables of the callee.
     pub in_outs: Vec<(usize, Place)>,
-    /// Variables of the caller that get outputs, in the order of the text; complemented if `true`.
+    /// Variables of the caller that receive outputs, in the order of the text; complemented if `true`.
     pub outputs: Vec<(usize, bool, Place)>,
     /// `EN` and `ENO`.
     pub enable: Enable,
@@ -228,60 +228,60 @@ pub struct Call {
     pub before_eno: usize,
 }
 
-/// What is called.
+/// Called unit.
 #[derive(Clone, Debug)]
 pub enum Callee {
-    /// An instance of a function block.
+    /// Instance of a function block.
     Instance(PouId, Place),
-    /// A function.
+    /// Function.
     Function(PouId),
 }
 
-/// The parameters `EN` and `ENO` of a call (2.5.1.2).
+/// Parameters `EN` and `ENO` of a call (2.5.1.2).
 #[derive(Clone, Debug, Default)]
 pub struct Enable {
-    /// Whether it is executed.
+    /// `EN`: whether the call is executed.
     pub en: Option<Feed>,
-    /// Gets whether it was, after the call; complemented if `true`.
+    /// `ENO`: variable that receives whether the call was executed; complemented if `true`.
     pub eno: Option<(bool, Place)>,
 }
 
-/// A value that is handed over, with its type.
+/// Value passed to an input, with its type.
 #[derive(Clone, Debug)]
 pub struct Feed {
-    /// Its type.
+    /// Type of the value.
     pub ty: TypeId,
-    /// Where it comes from.
+    /// Source of the value.
     pub source: FeedSource,
-    /// Where it stands.
+    /// Span in the text.
     pub span: Span,
 }
 
-/// Where a value that is handed over comes from.
+/// Source of a value passed to an input.
 #[derive(Clone, Debug)]
 pub enum FeedSource {
-    /// The current result.
+    /// Current result.
     Result,
-    /// An operand.
+    /// Operand.
     Operand(Operand),
-    /// The result of a list.
+    /// Current result at the end of a list.
     List(Vec<Statement>),
 }
 
-/// A call of a standard function.
+/// Call of a standard function.
 #[derive(Clone, Debug)]
 pub struct Standard {
-    /// Which.
+    /// Function called.
     pub function: StandardFunction,
-    /// The type of its value.
+    /// Type of the value of the function.
     pub ty: TypeId,
-    /// Its arguments in their order.
+    /// Arguments in the order of the function's inputs.
     pub arguments: Vec<Feed>,
     /// `EN` and `ENO`.
     pub enable: Enable,
 }
 
-/// The standard functions that are not operators as well (2.5.1.5).
+/// Standard function that is not an operator as well (2.5.1.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StandardFunction {
     /// `X_TO_Y`

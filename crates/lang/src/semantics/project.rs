@@ -1,4 +1,4 @@
-//! Everything a file declares, and the library beside it: program organisation units, types, global variables.
+//! Declarations of a file and of the library: program organisation units, types, global variables.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -12,23 +12,23 @@ use crate::syntax::ast::{Pou, PouKind, Unit};
 use petril_base::Type;
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// A file and the library.
+/// Declarations of a file and of the library.
 pub struct Project<'a> {
     pub unit: &'a Unit,
-    /// The units of the file, then those of the library; [`PouId`] is the position.
+    /// Units of the file, then those of the library; [`PouId`] is the position.
     pub pous: Vec<&'a Pou>,
     by_name: BTreeMap<String, PouId>,
-    /// The names that each unit declares.
+    /// Names that each unit declares.
     pub symbols: Vec<Symbols>,
     /// Global variables, and addresses that are used without a declaration.
     pub globals: Symbols,
     enumerations: Vec<Rc<Enumeration>>,
-    /// The first unit of the library.
+    /// Position of the first unit of the library.
     own: usize,
 }
 
 impl<'a> Project<'a> {
-    /// Reads the declarations of a file. The second list has what is wrong with each unit's.
+    /// Reads the declarations of a file; returns its diagnostics, and those of each unit's declarations.
     pub fn of(unit: &'a Unit) -> (Self, Vec<Diagnostic>, Vec<Vec<Diagnostic>>) {
         let mut by_name = BTreeMap::new();
         let pous: Vec<&Pou> = unit.pous.iter().chain(&library::unit().pous).collect();
@@ -63,7 +63,7 @@ impl<'a> Project<'a> {
         (Self { unit, pous, by_name, symbols, globals, enumerations, own }, found, of_units)
     }
 
-    /// The unit of a name.
+    /// Unit with a name.
     pub fn find(&self, name: &str) -> Option<PouId> {
         self.by_name.get(&crate::syntax::ast::key(name)).copied()
     }
@@ -76,7 +76,7 @@ impl<'a> Project<'a> {
         &self.symbols[id.0]
     }
 
-    /// What the rules look at.
+    /// Input of the static rules for a unit.
     pub fn context(&self, id: PouId) -> Context<'_> {
         let pou = self.pou(id);
         let labels = control_flow::labels(&pou.body);
@@ -88,27 +88,27 @@ impl<'a> Project<'a> {
         id.0 >= self.own
     }
 
-    /// The enumeration of a name.
+    /// Enumeration with a name.
     pub fn enumeration(&self, name: &str) -> Option<Rc<Enumeration>> {
         self.enumerations.iter().find(|enumeration| enumeration.name.eq_ignore_ascii_case(name)).cloned()
     }
 
-    /// The enumerations that have a value of this name.
+    /// Enumerations that have a value with this name, with its number.
     pub fn enumerators(&self, name: &str) -> Vec<(Rc<Enumeration>, usize)> {
         enumerator(&self.enumerations, name)
     }
 
-    /// The names of all enumerations.
+    /// Names of all enumerations.
     pub fn enumeration_names(&self) -> impl Iterator<Item = &str> {
         self.enumerations.iter().map(|enumeration| enumeration.name.as_str())
     }
 
-    /// The names of the values of all enumerations.
+    /// Names of the values of all enumerations.
     pub fn enumerator_names(&self) -> impl Iterator<Item = &str> {
         self.enumerations.iter().flat_map(|enumeration| enumeration.values.iter()).map(String::as_str)
     }
 
-    /// The variable a name stands for in a unit: its own, or a global one (as its position among these).
+    /// Variable that a name stands for in a unit: its own, or a global one (as its position among these).
     pub fn variable(&self, id: PouId, name: &str) -> Option<(Section, usize, &Symbol)> {
         if let Some((position, symbol)) = self.symbols(id).find(name) {
             return Some((symbol.section, position, symbol));
@@ -118,21 +118,21 @@ impl<'a> Project<'a> {
     }
 }
 
-/// What the declarations of a file say.
+/// Result of reading the declarations of a file.
 struct Declarations {
     globals: Symbols,
     symbols: Vec<Symbols>,
     enumerations: Vec<Rc<Enumeration>>,
-    /// Whether there is a value that the variables of the units are needed for.
+    /// Whether an initial value needs the variables of the units.
     needs_units: bool,
-    /// What is wrong with types and global variables.
+    /// Diagnostics of types and global variables.
     found: Vec<Diagnostic>,
-    /// What is wrong with each unit's variables.
+    /// Diagnostics of each unit's variables.
     of_units: Vec<Vec<Diagnostic>>,
 }
 
 impl Declarations {
-    /// Reads them; `known` are the variables of the units, if they have been read before.
+    /// Reads the declarations; `known` are the variables of the units, if they have been read before.
     fn of(unit: &Unit, pous: &[&Pou], blocks: &BTreeMap<String, PouId>, known: Option<Vec<Symbols>>) -> Self {
         let mut declare = Declare::new(&unit.types, blocks, known);
         let mut globals = variables::global(&unit.globals, &mut declare);
@@ -148,7 +148,7 @@ impl Declarations {
     }
 }
 
-/// Types that have the name of a unit, or of a type that exists already.
+/// Reports types that have the name of a unit, or of an elementary type.
 fn names_of_types<'a>(unit: &'a Unit, pous: &'a [&Pou]) -> impl Iterator<Item = Diagnostic> + 'a {
     let by_name: BTreeMap<String, &Pou> = pous.iter().rev().map(|pou| (pou.name.key(), *pou)).collect();
     unit.types.iter().filter_map(move |declaration| {

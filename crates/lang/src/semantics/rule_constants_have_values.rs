@@ -1,4 +1,4 @@
-//! A constant is given a value. (Without one it is FALSE, which is rarely meant.)
+//! A constant is given a value. (Without one it has the default of its type, which is rarely meant.)
 //!
 //! Passes: `VAR CONSTANT k : BOOL := TRUE; END_VAR`.
 //! Fails: `VAR CONSTANT k : BOOL; END_VAR`.

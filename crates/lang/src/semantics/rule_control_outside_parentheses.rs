@@ -1,5 +1,5 @@
-//! Labels, jumps, returns and calls of function blocks stand outside parentheses and outside the lists of calls (B.2.1: both
-//! hold a simple instruction list).
+//! Labels, jumps, returns and calls of function blocks stand outside parentheses and outside the lists of calls (B.2.1:
+//! either holds a simple instruction list).
 //!
 //! Passes: `AND( a`, `OR b`, `)`.
 //! Fails: `AND( a`, `JMPC on`, `)`.

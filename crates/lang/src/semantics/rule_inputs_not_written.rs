@@ -20,12 +20,12 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
         .collect()
 }
 
-/// What is written although it is declared in this section, each with its declaration. A variable at `%I…` is an input.
+/// Written variables of a section, each with its declaration. A variable at `%I…` is an input.
 pub(super) fn writes<'a>(context: &Context<'a>, section: Section) -> impl Iterator<Item = (&'a Path, Span)> {
     let mut found = Vec::new();
     for (path, _) in uses::paths(&context.pou.body, Some(context)).into_iter().filter(|(_, writes)| *writes) {
         let Some((declared, _, own)) = context.project.variable(context.id, &path.root.text) else { continue };
-        // An external variable is what the global one is.
+        // An external variable has the section of the global one.
         let symbol = match declared {
             Section::External(position) => context.project.globals.list().get(position).unwrap_or(own),
             _ => own,

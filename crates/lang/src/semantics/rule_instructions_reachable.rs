@@ -1,4 +1,4 @@
-//! Control can come to every instruction.
+//! Every instruction is reachable.
 //!
 //! Passes: `JMPC on`, `LD a`, `on: LD b`.
 //! Fails: `JMP on`, `LD a`, `on: LD b`: nothing ever executes `LD a`.

@@ -1,7 +1,7 @@
-//! A jump goes forward. One that goes back makes a loop, and a loop may keep a scan from ending.
+//! A jump goes forward. A jump back makes a loop, and a loop may keep a scan from ending.
 //!
 //! Passes: `JMPC on`, `LD a`, `on: LD b`.
-//! Fails: `back: LD a`, `JMPC back`. It is a warning: whether every scan ends is proved with everything else.
+//! Fails: `back: LD a`, `JMPC back`. (Only a warning: whether every scan ends is proved with everything else.)
 
 use super::Context;
 use crate::syntax::ast::Operation;

@@ -1,4 +1,4 @@
-//! No label is defined twice.
+//! A label is defined once.
 //!
 //! Passes: `a: LD x` … `b: LD x`.
 //! Fails: `a: LD x` … `A: LD x`.

@@ -1,4 +1,5 @@
-//! A parenthesis begins with a value: an operand behind `(`, or a load as its first instruction. So does a list in a call.
+//! A parenthesis begins with a value: an operand after `(`, or a load as its first instruction. So does a list in a
+//! call.
 //!
 //! Passes: `AND( a` … `)`; `AND(`, `LD a` … `)`.
 //! Fails: `AND(`, `OR a`, `)`; `AND(`, `)`; `CAL t(IN := (` `AND a` … `))`.
@@ -11,7 +12,7 @@ use petril_base::diagnostic::{Code, Diagnostic};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
-    // Of parentheses that begin with one another, the outermost is reported: `AND(AND(AND(` is one mistake.
+    // Of nested parentheses that begin with one another, the outermost is reported: `AND(AND(AND(` is one mistake.
     let mut reported = BTreeSet::new();
     for (instruction, _) in with_nested(&context.pou.body) {
         match &instruction.operation {
@@ -48,7 +49,7 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// A load; calls and control are reported by other rules.
+/// Whether an instruction is a load or a formal call; calls and control are reported by other rules.
 fn begins_with_value(instruction: &Instruction) -> bool {
     match &instruction.operation {
         Some(Operation::Simple { operator, .. }) => operator.verb == Verb::Ld,
@@ -58,7 +59,7 @@ fn begins_with_value(instruction: &Instruction) -> bool {
     }
 }
 
-/// Whether what a parenthesis begins with, after however many more, could not be read.
+/// Whether the innermost first instruction of a parenthesis could not be read.
 fn is_broken(mut first: &Instruction) -> bool {
     loop {
         match &first.operation {

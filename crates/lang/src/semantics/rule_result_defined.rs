@@ -1,7 +1,7 @@
-//! The current result is used only where a load has given it a value, on every way control can take.
+//! The current result is used only where a load has given it a value, on every path of control.
 //!
 //! Passes: `LD a`, `ST b`.
-//! Fails: `ST b` as the first instruction; `LD a` reached by no path that jumps over it.
+//! Fails: `ST b` as the first instruction; `ST b` after an `LD a` that a path jumps over.
 
 use petgraph::Direction;
 use petgraph::graph::NodeIndex;
@@ -37,8 +37,8 @@ pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// For each instruction, whether control can leave it while the current result has no value. A use gives it one here,
-/// so that one missing load is one diagnostic.
+/// Whether control can leave each instruction while the current result has no value. A use counts as giving it one, so
+/// that one missing load is one diagnostic.
 fn undefined_after(effects: &[(bool, Leaves)], graph: &ControlFlow) -> Vec<bool> {
     let mut undefined = vec![false; effects.len() + 1];
     let calls = (0..effects.len()).filter(|&i| effects[i].1 == Leaves::Nothing);

@@ -1,4 +1,4 @@
-//! What is computed is used: stored, tested, or handed over.
+//! Every computed value is used: stored, tested, or passed on.
 //!
 //! Passes: `LD a`, `AND b`, `ST c`.
 //! Fails: `LD a`, `AND b`, `LD c`: the conjunction is lost.

@@ -1,4 +1,4 @@
-//! Every variable is used: what is read is written or has a value, and every output is written.
+//! Every variable is used: one that is read is written or has a value, and every output is written.
 //!
 //! Passes: `VAR a : BOOL; END_VAR`, `ST a`, `LD a`.
 //! Fails: `a` occurs nowhere; `a` is loaded and nothing ever stores in it; nothing stores in the output `q`.
@@ -12,7 +12,7 @@ use crate::syntax::ast::key;
 use petril_base::diagnostic::{Code, Diagnostic};
 
 pub fn apply(context: &Context<'_>) -> Vec<Diagnostic> {
-    // Whether each variable that occurs is written.
+    // For each variable that occurs, whether it is written.
     let mut written: BTreeMap<String, bool> = BTreeMap::new();
     for (path, writes) in uses::paths(&context.pou.body, Some(context)) {
         let by_address = context.symbols.find(&path.root.text).map(|(_, symbol)| key(&symbol.name));

@@ -1,4 +1,4 @@
-//! The types of variables: elementary ones, what is made of them, and function blocks.
+//! Types of variables: elementary ones, arrays and structures of them, and function blocks.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -8,43 +8,43 @@ use std::sync::Arc;
 
 use petril_base::{Kind, Type};
 
-/// A program organisation unit, a key of [`Program::pous`](super::Program::pous).
+/// Program organisation unit, a key of [`Program::pous`](super::Program::pous).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PouId(pub usize);
 
-/// What a variable is made of.
+/// Shape of a variable: its type, resolved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// One value.
+    /// Elementary value.
     Scalar(Scalar),
     /// `ARRAY [ranges] OF of`
     Array {
-        /// The least and greatest index of each dimension.
+        /// Least and greatest index of each dimension.
         ranges: Vec<(i64, i64)>,
-        /// What the elements are.
+        /// Shape of the elements.
         of: Box<Shape>,
     },
     /// `STRUCT … END_STRUCT`
     Structure(Rc<Structure>),
-    /// An instance of a function block.
+    /// Instance of a function block.
     Instance(PouId),
 }
 
-/// A structure's members.
+/// Structure with its members.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Structure {
-    /// The name it was declared by, if it has one.
+    /// Name that the structure was declared by, if it has one.
     pub name: String,
-    /// In the order of declaration.
+    /// Members in the order of declaration.
     pub members: Vec<Member>,
-    /// How many elementary values it has, itself counted as one: a structure of nothing is something to walk through.
+    /// Number of elementary values, plus one for the structure: an empty structure takes a step to walk through, too.
     pub(super) leaves: usize,
-    /// How deeply its members are nested.
+    /// Nesting depth of the members.
     pub(super) depth: usize,
 }
 
 impl Structure {
-    /// A structure of these members.
+    /// Creates a structure of these members.
     #[must_use]
     pub fn new(name: String, members: Vec<Member>) -> Self {
         let leaves = members.iter().fold(1_usize, |sum, member| sum.saturating_add(member.shape.leaves()));
@@ -53,66 +53,66 @@ impl Structure {
     }
 }
 
-/// A member of a structure.
+/// Member of a structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// Its name as it was declared.
+    /// Name as it was declared.
     pub name: String,
-    /// What it is.
+    /// Shape of the member.
     pub shape: Shape,
-    /// Its value at power-on.
+    /// Value at power-on.
     pub initial: Value,
 }
 
-/// An elementary type and what is allowed of it.
+/// Elementary type with the restriction on its values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scalar {
-    /// The elementary type; of an enumeration the least unsigned one that can tell its values apart.
+    /// Elementary type; of an enumeration the least unsigned one that can distinguish its values.
     pub ty: Type,
-    /// The least and greatest value of a subrange.
+    /// Least and greatest value of a subrange.
     pub range: Option<(i128, i128)>,
-    /// The enumeration, if it is one.
+    /// Enumeration, if the type is one.
     pub enumeration: Option<Rc<Enumeration>>,
-    /// Its value at power-on if none is given, as a pattern.
+    /// Value at power-on if none is given, as a pattern.
     pub default: u64,
 }
 
-/// An enumerated type.
+/// Enumerated type.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Enumeration {
-    /// The name it was declared by; of one without a name, its values.
+    /// Name that the type was declared by; of a type without a name, its values.
     pub name: String,
-    /// The names of its values 0, 1, ….
+    /// Names of the values 0, 1, ….
     pub values: Arc<[String]>,
 }
 
 impl Enumeration {
-    /// The number of a value's name.
+    /// Number of a value by its name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {
         self.values.iter().position(|value| value.eq_ignore_ascii_case(name))
     }
 }
 
-/// A value at power-on, given for a shape.
+/// Value at power-on, given for a shape.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
-    /// What the type says.
+    /// Default of the type.
     Default,
-    /// The pattern of an elementary value.
+    /// Pattern of an elementary value.
     Scalar(u64),
-    /// Values of the members or elements with these positions; the others have what their types say.
+    /// Values of the members or elements at these positions; the others have the defaults of their types.
     Parts(Rc<[(Range<usize>, Value)]>),
 }
 
 impl Scalar {
-    /// A scalar of an elementary type.
+    /// Creates a scalar of an elementary type.
     #[must_use]
     pub fn new(ty: Type) -> Self {
         Self { ty, range: None, enumeration: None, default: 0 }
     }
 
-    /// A scalar of an enumeration: a number from 0 for each of its values.
+    /// Creates a scalar of an enumeration: a number from 0 for each of its values.
     #[must_use]
     pub fn enumerated(enumeration: Rc<Enumeration>) -> Self {
         let width = if enumeration.values.len() <= 1 << 8 { 8 } else { 16 };
@@ -122,7 +122,7 @@ impl Scalar {
 }
 
 impl Shape {
-    /// The scalar, if it is one.
+    /// Scalar, if the shape is one.
     #[must_use]
     pub fn scalar(&self) -> Option<&Scalar> {
         match self {
@@ -131,7 +131,7 @@ impl Shape {
         }
     }
 
-    /// How many elementary values it has, an instance counted as one.
+    /// Number of elementary values, an instance counted as one.
     #[must_use]
     pub fn leaves(&self) -> usize {
         match self {
@@ -141,7 +141,7 @@ impl Shape {
         }
     }
 
-    /// The function blocks that it holds instances of.
+    /// Function blocks that the shape holds instances of.
     #[must_use]
     pub fn instances(&self) -> BTreeSet<PouId> {
         match self {
@@ -154,7 +154,7 @@ impl Shape {
         }
     }
 
-    /// How deeply arrays and structures are nested in it.
+    /// Nesting depth of arrays and structures.
     #[must_use]
     pub fn depth(&self) -> usize {
         match self {
@@ -164,7 +164,7 @@ impl Shape {
         }
     }
 
-    /// Whether a variable of the other shape may stand for one of this: the same types everywhere.
+    /// Whether a variable of the other shape may stand for one of this shape: their types are equal everywhere.
     #[must_use]
     pub fn same(&self, other: &Self) -> bool {
         match (self, other) {
@@ -179,7 +179,7 @@ impl Shape {
     }
 }
 
-/// How many elements an array of these ranges has.
+/// Number of elements of an array with these ranges.
 #[must_use]
 pub fn elements(ranges: &[(i64, i64)]) -> usize {
     ranges.iter().map(|&(lower, upper)| (upper - lower + 1) as usize).product()

@@ -1,4 +1,5 @@
-//! The letter of edition 2: what is read although it is not in it, because real programs have it.
+//! Checks against the letter of edition 2: constructs that are accepted although it does not have them, because real
+//! programs do.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +14,7 @@ use crate::syntax::{Comments, comments, without_comments};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{Source, Span};
 
-/// Everything in a file that the letter of edition 2 does not allow, each kind by its code.
+/// Reports everything in a file that the letter of edition 2 does not allow, each kind by its code.
 #[must_use]
 pub fn strict(source: &Source, unit: &Unit) -> Vec<Diagnostic> {
     let mut found = Vec::new();
@@ -33,7 +34,7 @@ pub fn strict(source: &Source, unit: &Unit) -> Vec<Diagnostic> {
     found
 }
 
-/// Comments, ends of lines, and calls.
+/// Checks comments, ends of lines, and calls.
 fn text(source: &Source, unit: &Unit, found: &mut Vec<Diagnostic>) {
     let Comments { to_line_end, nested } = comments(source.text());
     found.extend(to_line_end.into_iter().map(|span| {
@@ -78,7 +79,7 @@ fn punctuation(instruction: &Instruction, plain: &str, found: &mut Vec<Diagnosti
     }
 }
 
-/// In a formal list, every parameter stands on a line of its own (B.2.1, `il_param_list`).
+/// Checks that every parameter of a formal call stands on a line of its own (B.2.1, `il_param_list`).
 fn formal_call(arguments: &Arguments, span: Span, plain: &str, found: &mut Vec<Diagnostic>) {
     let is_formal = arguments.list.iter().any(|argument| !matches!(argument, Argument::Positional(_)));
     let text = plain.get(span.range()).unwrap_or_default();
@@ -90,7 +91,7 @@ fn formal_call(arguments: &Arguments, span: Span, plain: &str, found: &mut Vec<D
     }
 }
 
-/// Words of the language as names of variables, and addresses that do not say their size.
+/// Reports words of the language as names of variables, and addresses without a size.
 fn names_and_addresses(block: &VarBlock, found: &mut Vec<Diagnostic>) {
     const OTHERS: [&str; 9] = ["JMP", "JMPC", "JMPCN", "CAL", "CALC", "CALCN", "RET", "RETC", "RETCN"];
     let is_word = |name: &str| Verb::ALL.iter().any(|(_, word)| *word == name) || OTHERS.contains(&name);
@@ -112,7 +113,7 @@ fn names_and_addresses(block: &VarBlock, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Global variables that a unit uses without declaring them.
+/// Reports global variables that a unit uses without declaring them.
 fn globals(unit: &Unit, found: &mut Vec<Diagnostic>) {
     let (project, ..) = Project::of(unit);
     for (i, pou) in unit.pous.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The names a program organisation unit declares.
+//! Symbols: the names that a program organisation unit declares.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -8,7 +8,7 @@ use super::shape::{Shape, Value};
 use crate::syntax::ast::key;
 use petril_base::source::Span;
 
-/// Where a variable is declared, which says who may write it and how long it lives.
+/// Section of a declaration, which determines who may write the variable and how long it lives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Section {
     /// `VAR_INPUT`
@@ -19,43 +19,43 @@ pub enum Section {
     InOut,
     /// `VAR`, `VAR_GLOBAL`
     Local,
-    /// `VAR_TEMP`: begins anew with every call.
+    /// `VAR_TEMP`: initialised at every call.
     Temp,
     /// `CONSTANT`
     Constant,
-    /// The result of a function.
+    /// Result of a function.
     Result,
     /// `VAR_EXTERNAL`: stands for the global variable of this position.
     External(usize),
 }
 
-/// A declared name.
+/// Declared name.
 #[derive(Clone, Debug)]
 pub struct Symbol {
-    /// As it was declared.
+    /// Name as it was declared.
     pub name: String,
-    /// Where it is declared.
+    /// Span of the name in its declaration.
     pub span: Span,
-    /// In which block.
+    /// Section of the declaration.
     pub section: Section,
-    /// What it is; `None` where that cannot be told, which has been reported.
+    /// Shape of the variable; `None` if the declaration does not give one, which has been reported.
     pub shape: Option<Shape>,
-    /// Its value at power-on.
+    /// Value at power-on.
     pub initial: Value,
-    /// Whether a value was written.
+    /// Whether an initial value was written.
     pub is_given: bool,
-    /// Its address, if it has one.
+    /// Address, if there is one.
     pub location: Option<Location>,
 }
 
 impl Symbol {
-    /// The area of its address.
+    /// Area of the address.
     pub fn area(&self) -> Option<Area> {
         self.location.as_ref().map(|location| location.area)
     }
 }
 
-/// The declared names, in the order of the text. Of a name declared twice the first declaration counts.
+/// Declared names, in the order of the text. Of a name declared twice the first declaration counts.
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
     list: Vec<Symbol>,
@@ -64,7 +64,7 @@ pub struct Symbols {
 }
 
 impl Symbols {
-    /// Adds a symbol, unless there is one of this name: then this is its position.
+    /// Adds a symbol, unless there is one with this name: then returns its position as the error.
     pub fn add(&mut self, symbol: Symbol) -> Result<(), usize> {
         let position = self.list.len();
         match self.by_key.entry(key(&symbol.name)) {
@@ -80,12 +80,12 @@ impl Symbols {
         }
     }
 
-    /// The symbols in the order of declaration.
+    /// Symbols in the order of declaration.
     pub fn list(&self) -> &[Symbol] {
         &self.list
     }
 
-    /// The symbol of a name or address, however it is spelt.
+    /// Symbol with a name or address, in any spelling, and its position.
     pub fn find(&self, name: &str) -> Option<(usize, &Symbol)> {
         let position = match name.strip_prefix('%') {
             Some(_) => *self.by_address.get(&address::spelling(name))?,
@@ -94,7 +94,7 @@ impl Symbols {
         Some((position, &self.list[position]))
     }
 
-    /// The names as declared, for suggestions.
+    /// Names as declared, for suggestions.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.list.iter().map(|symbol| symbol.name.as_str())
     }

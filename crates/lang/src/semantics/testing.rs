@@ -1,11 +1,11 @@
-//! What the rules' tests share.
+//! Helpers of the rules' tests.
 
 use super::check;
 use crate::syntax::parse;
 use petril_base::diagnostic::Code;
 use petril_base::source::Source;
 
-/// A program with inputs `i`, `j`, memory `m`, output `q`, constant `k`; the body begins in line 2.
+/// Program with inputs `i`, `j`, memory `m`, output `q`, constant `k`; the body begins in line 2.
 pub fn program(body: &str) -> String {
     format!(
         "PROGRAM p VAR_INPUT i, j : BOOL; END_VAR VAR m : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR \
@@ -13,7 +13,7 @@ pub fn program(body: &str) -> String {
     )
 }
 
-/// The lines where a text is reported with this code.
+/// Lines where a text is reported with this code.
 pub fn lines(code: Code, text: &str) -> Vec<usize> {
     let source = Source::new("test", text);
     let (unit, mut diagnostics) = parse(&source);
@@ -21,7 +21,7 @@ pub fn lines(code: Code, text: &str) -> Vec<usize> {
     diagnostics.iter().filter(|d| d.code == code).map(|d| source.line_of(d.span().start)).collect()
 }
 
-/// What is said about a text, in the order of the text: codes and lines.
+/// Diagnostics of a text, in the order of the text: codes and lines.
 pub fn findings(text: &str) -> Vec<(Code, usize)> {
     let source = Source::new("test", text);
     let (unit, mut diagnostics) = parse(&source);

@@ -1,4 +1,4 @@
-//! Which variables an instruction names, and for what.
+//! Variables that an instruction names, and whether it writes them.
 
 use super::effect::{block, shape};
 use super::symbols::Symbols;
@@ -7,7 +7,7 @@ use crate::syntax::ast::{
     Argument, Arguments, Feed, Instruction, Operand, Operation, Part, Path, Subscript, Verb, with_nested,
 };
 
-/// Every path in a list, and whether it is written. Before anything is known of the names, there is no context.
+/// Paths in a list, each with whether it is written. `context` is `None` before names are resolved.
 pub fn paths<'a>(body: &'a [Instruction], context: Option<&Context<'_>>) -> Vec<(&'a Path, bool)> {
     let mut paths = Vec::new();
     for (instruction, _) in with_nested(body) {
@@ -18,7 +18,7 @@ pub fn paths<'a>(body: &'a [Instruction], context: Option<&Context<'_>>) -> Vec<
     paths
 }
 
-/// The paths in an instruction, but not those in the lists inside it.
+/// Paths in an instruction, but not those in the lists inside it.
 fn of_instruction<'a>(instruction: &'a Instruction, context: Option<&Context<'_>>, paths: &mut Vec<(&'a Path, bool)>) {
     match &instruction.operation {
         Some(Operation::Simple { operator, operands }) => {
@@ -44,7 +44,7 @@ fn of_instruction<'a>(instruction: &'a Instruction, context: Option<&Context<'_>
     }
 }
 
-/// The arguments of a call. A variable that an in-out variable stands for is read, and it is written: by what is called.
+/// Paths in the arguments of a call. A variable bound to an in-out variable is read and written: by the called unit.
 fn of_arguments<'a>(
     arguments: &'a Arguments,
     callee: Option<(PouId, &Context<'_>)>,
@@ -54,7 +54,7 @@ fn of_arguments<'a>(
     let section = |name: &str| symbols.and_then(|symbols| symbols.find(name)).map(|(_, symbol)| symbol.section);
     let by_position = symbols.into_iter().flat_map(Symbols::list).map(|symbol| symbol.section);
     let by_position = by_position.filter(|section| matches!(section, Section::Input | Section::InOut));
-    // Behind the name of a function alone, the first input is the current result.
+    // After the name of a function without parentheses, the first input is the current result.
     let mut by_position = by_position.skip(usize::from(!arguments.enclosed));
     for argument in &arguments.list {
         let section = match argument {
@@ -80,7 +80,7 @@ fn of_operand<'a>(operand: &'a Operand, writes: bool, paths: &mut Vec<(&'a Path,
     }
 }
 
-/// The variables that choose elements.
+/// Variables that are indices of a path.
 fn indices(path: &Path) -> Vec<(&Path, bool)> {
     let subscripts = path.parts.iter().flat_map(|part| match part {
         Part::Index(subscripts, _) => subscripts.as_slice(),

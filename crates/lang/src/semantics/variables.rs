@@ -1,4 +1,4 @@
-//! Blocks of variables (B.1.4.3) to symbols.
+//! Symbols from blocks of variables (B.1.4.3).
 
 use super::address;
 use super::declare::Declare;
@@ -8,7 +8,7 @@ use super::symbols::{Section, Symbol, Symbols};
 use crate::syntax::ast::{Declaration, Name, Pou, PouKind, TypeSpec, VarBlock, VarKind};
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// The names that a unit declares.
+/// Reads the symbols that a unit declares.
 pub fn of_unit(pou: &Pou, globals: &Symbols, declare: &mut Declare<'_>) -> Symbols {
     let mut variables = Variables {
         symbols: Symbols::default(),
@@ -24,7 +24,7 @@ pub fn of_unit(pou: &Pou, globals: &Symbols, declare: &mut Declare<'_>) -> Symbo
     variables.symbols
 }
 
-/// The global variables that some blocks declare.
+/// Reads the global variables that blocks declare.
 pub fn global(blocks: &[VarBlock], declare: &mut Declare<'_>) -> Symbols {
     let globals = &Symbols::default();
     let mut variables =
@@ -33,7 +33,7 @@ pub fn global(blocks: &[VarBlock], declare: &mut Declare<'_>) -> Symbols {
     variables.symbols
 }
 
-/// The symbols of a unit while its declarations are read.
+/// Symbols of a unit while its declarations are read.
 struct Variables<'v, 'd> {
     symbols: Symbols,
     globals: &'v Symbols,
@@ -48,7 +48,7 @@ impl Variables<'_, '_> {
         self.declare.diagnostics.push(diagnostic);
     }
 
-    /// A function's result is a variable of its name.
+    /// Adds the result of a function, a variable with its name.
     fn result(&mut self, pou: &Pou) {
         let report = |message: String, help: &str| {
             let span = pou.result.as_ref().map_or(pou.name.span, |result| result.span);
@@ -135,7 +135,7 @@ impl Variables<'_, '_> {
         }
     }
 
-    /// What the block makes of a variable.
+    /// Section of a variable in a block.
     fn section(&mut self, name: &Name, block: &VarBlock) -> Section {
         match block.kind {
             VarKind::Input => Section::Input,
@@ -160,7 +160,7 @@ impl Variables<'_, '_> {
         }
     }
 
-    /// An external variable is what the global one is.
+    /// Checks that an external variable has the type of the global one.
     fn external(&mut self, symbol: &mut Symbol, position: usize) {
         let Some(global) = self.globals.list().get(position) else { return };
         let (Some(own), Some(other)) = (&symbol.shape, &global.shape) else { return };
@@ -174,7 +174,7 @@ impl Variables<'_, '_> {
     fn add(&mut self, symbol: Symbol, declaration: &Declaration) {
         let (span, name) = (symbol.span, symbol.name.clone());
         let Err(first) = self.symbols.add(symbol) else { return };
-        // Of a declaration that cannot be read, nobody knows which words are names.
+        // In a declaration that cannot be read, it is not known which words are names.
         if declaration.spec.is_some() {
             let first = &self.symbols.list()[first];
             let what = match first.section {
@@ -205,7 +205,8 @@ fn unsupported(block: &VarBlock) -> Option<Diagnostic> {
     }
 }
 
-/// An instance keeps its state from call to call, so it cannot stand where variables begin anew or are copied.
+/// Reports an instance of a function block, which keeps its state, where variables are initialised at each call or
+/// copied.
 fn misplaced_instance(
     declaration: &Declaration,
     block: &VarBlock,

@@ -1,12 +1,12 @@
-//! Comments (B.1.5): blanked, so that the grammar need not know them.
+//! Comments (B.1.5): replaced by blanks, so that the grammar need not know them.
 //!
-//! `(* … *)` nests, as every tool of the field allows; `//` runs to the line end. A comment that spans lines does not
-//! end an instruction, so the line ends inside it become blanks too. Byte offsets stay as they are.
+//! `(* … *)` nests, as in every tool of the field; `//` runs to the line end. A comment that spans lines does not end
+//! an instruction, so the line ends inside it become blanks too. Byte offsets do not change.
 
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A comment, from its opening to behind its end.
+/// Comment, from its opening to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Comment {
     span: Span,
@@ -23,7 +23,7 @@ enum Kind {
     ToLineEnd,
 }
 
-/// The comments of a text, one after another.
+/// Iterator over the comments of a text.
 fn scan(text: &str) -> impl Iterator<Item = Comment> {
     let bytes = text.as_bytes();
     let mut at = 0;
@@ -37,7 +37,7 @@ fn scan(text: &str) -> impl Iterator<Item = Comment> {
                     None => (bytes.len(), Some(Kind::Unclosed)),
                 },
                 [b'/', b'/', ..] => (line_end(bytes, at), Some(Kind::ToLineEnd)),
-                // Text in quotes holds no comments; it ends with its line at the latest.
+                // Text in quotes has no comments; it ends with its line at the latest.
                 [quote @ (b'\'' | b'"'), rest @ ..] => {
                     let stop = rest.iter().position(|b| b == quote || *b == b'\n').unwrap_or(rest.len());
                     ((at + stop + 2).min(bytes.len()), None)
@@ -52,8 +52,8 @@ fn scan(text: &str) -> impl Iterator<Item = Comment> {
     })
 }
 
-/// The text with every comment replaced by as many blanks, and a diagnostic for a comment that is never closed. `start` is
-/// the text's offset in its file.
+/// Replaces every comment by as many blanks and reports a comment that is never closed. `start` is the text's offset in
+/// its file.
 pub fn blank(text: &str, start: usize) -> (String, Option<Diagnostic>) {
     let mut blanked = text.as_bytes().to_vec();
     let mut unclosed = None;
@@ -73,16 +73,16 @@ pub fn blank(text: &str, start: usize) -> (String, Option<Diagnostic>) {
     (String::from_utf8_lossy(&blanked).into_owned(), unclosed)
 }
 
-/// The comments of a text that the letter of edition 2 does not allow.
+/// Comments of a text that edition 2, to the letter, does not allow.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Comments {
     /// `// …`
     pub to_line_end: Vec<Span>,
-    /// The openings of comments inside comments.
+    /// Openings of comments inside comments.
     pub nested: Vec<Span>,
 }
 
-/// Looks for them.
+/// Finds the comments of a text that edition 2, to the letter, does not allow.
 #[must_use]
 pub fn comments(text: &str) -> Comments {
     let mut found = Comments::default();
@@ -95,8 +95,8 @@ pub fn comments(text: &str) -> Comments {
     found
 }
 
-/// What stands in comments that begin with `(*@` or `//@`, each where it stands: a text as long as the whole, the rest of which is
-/// blank. Nothing if there is no such comment, or the text is no text of a program but XML.
+/// Requirements in comments that begin with `(*@` or `//@`, each in its place: a text of the same length, the rest of
+/// which is blank. `None` if there is no such comment, or the text is XML.
 #[must_use]
 pub fn requirements_in_comments(text: &str) -> Option<String> {
     if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
@@ -114,7 +114,7 @@ pub fn requirements_in_comments(text: &str) -> Option<String> {
     Some(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The openings of comments inside a comment.
+/// Openings of comments inside a comment.
 fn openings(text: &str, comment: Span) -> impl Iterator<Item = Span> {
     let inside = comment.start + 2;
     let pairs = text.as_bytes()[inside..comment.end].windows(2).enumerate();

@@ -1,37 +1,38 @@
-//! Siemens Statement List (STL, in German AWL): a language that looks like Instruction List, has other words, and is told once.
+//! Siemens Statement List (STL, in German AWL): a language that looks like Instruction List but has other words;
+//! reported once.
 
 use std::collections::BTreeSet;
 
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// Words that begin a line of Statement List and an operand, with those of both mnemonics.
+/// Words that begin a line of Statement List and take an operand, in the German and international mnemonics.
 const WITH_OPERAND: [&str; 34] = [
     "U", "UN", "O", "ON", "X", "XN", "A", "AN", "L", "T", "=", "FP", "FN", "SPA", "SPB", "SPBN", "SPBB", "SPBNB",
     "SPBI", "SPZ", "SPN", "SPP", "SPM", "JU", "JC", "JCN", "JCB", "JNB", "UC", "CC", "AUF", "OPN", "ZV", "ZR",
 ];
-/// Words that are all of a line.
+/// Words that stand alone on a line of Statement List.
 const ALONE: [&str; 18] = [
     "U(", "UN(", "O(", "ON(", "A(", "AN(", "X(", "XN(", "SET", "CLR", "SAVE", "BE", "BEA", "BEB", "BEU", "BEC", "==I",
     "<>I",
 ];
-/// Words with which only Statement List begins a block or a part of one.
+/// Words with which only Statement List begins or ends a block.
 const BLOCKS: [&str; 4] = ["ORGANIZATION_BLOCK", "END_ORGANIZATION_BLOCK", "DATA_BLOCK", "END_DATA_BLOCK"];
-/// Words that no statement of it begins with, and every program in Instruction List has.
+/// Words that begin no statement of Statement List, and that every program in Instruction List has.
 const STANDARD: [&str; 4] = ["LD", "LDN", "ST", "STN"];
 
-/// What a line says about the language.
+/// Evidence of a line for or against Statement List.
 enum Sign {
-    /// Only Statement List has it.
+    /// Line that only Statement List has.
     Certain,
-    /// An instruction of it, which could be the name of a function.
+    /// Instruction of Statement List, which could also be the name of a function.
     Likely,
-    /// Instruction List has it, and Statement List does not.
+    /// Instruction of Instruction List that Statement List does not have.
     Against,
     None,
 }
 
-/// The diagnostic that a text, without comments, is Statement List.
+/// Diagnostic for a text, without comments, that is Statement List.
 pub fn statement_list(text: &str) -> Option<Diagnostic> {
     let mut likely: Vec<Span> = Vec::new();
     let (mut is_standard, mut start) = (false, 0);
@@ -49,11 +50,11 @@ pub fn statement_list(text: &str) -> Option<Diagnostic> {
     let words: BTreeSet<String> =
         likely.iter().map(|&Span { start, end }| text[start..end].to_ascii_uppercase()).collect();
     let is_named = words.iter().any(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()));
-    // One word that is met again and again may be a mistake of another kind.
+    // A single word that occurs again and again may be a mistake of another kind.
     likely.first().filter(|_| is_named && words.len() > 1 && !is_standard).map(|&first| told(first))
 }
 
-/// What a line says, and its first word.
+/// Evidence of a line, and its first word.
 fn sign(line: &str) -> (Sign, &str) {
     let statement = match line.split_once(':') {
         Some((label, rest)) if !rest.starts_with('=') && !label.trim().contains(char::is_whitespace) => rest,
@@ -88,7 +89,7 @@ fn told(place: Span) -> Diagnostic {
         .help("`petril explain E0114` has a table; blocks exported as PLCopen XML with bodies in IL are read, too")
 }
 
-/// The operator of Instruction List that does what an instruction of Statement List does.
+/// Operator of Instruction List that corresponds to an instruction of Statement List.
 #[must_use]
 pub fn standard_operator(word: &str) -> Option<&'static str> {
     Some(match word.to_ascii_uppercase().as_str() {
@@ -109,7 +110,7 @@ pub fn standard_operator(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The standard's spelling of an address in Siemens's German or without `%`: `%E0.0` and `E0.0` are `%I0.0`.
+/// Standard spelling of an address in Siemens's German or without `%`: `%E0.0` and `E0.0` are `%I0.0`.
 #[must_use]
 pub fn standard_address(text: &str) -> Option<String> {
     let upper = text.to_ascii_uppercase();

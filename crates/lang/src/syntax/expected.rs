@@ -1,4 +1,4 @@
-//! What the grammar expected, in the words of the language instead of rule names.
+//! Syntax errors of IL as diagnostics: the expected tokens in the words of the language instead of rule names.
 
 use pest::Parser;
 use pest::error::Error;
@@ -7,7 +7,7 @@ use super::parse::{IlParser, Rule};
 use petril_base::diagnostic::{self, Code, Diagnostic};
 use petril_base::source::Span;
 
-/// Reads a piece of text again by the rule that should have read it, and says why that fails. `start` is the piece's
+/// Parses a piece of text again by the rule that should have read it, and says why that fails. `start` is the piece's
 /// offset in the whole text.
 pub fn explain(rule: Rule, text: &str, start: usize) -> Diagnostic {
     match IlParser::parse(rule, text) {
@@ -16,7 +16,7 @@ pub fn explain(rule: Rule, text: &str, start: usize) -> Diagnostic {
     }
 }
 
-/// A pest error as a diagnostic.
+/// Converts a pest error to a diagnostic.
 pub fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
     let diagnostic = diagnostic::expected(error, (text, start), Code::Syntax, "the end of the line", name);
     diagnostic::plain_letters(diagnostic, (text, start))

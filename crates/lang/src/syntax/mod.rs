@@ -1,5 +1,5 @@
-//! Text to syntax tree and back, and PLCopen's projects in XML to the same tree. The grammar is `grammar/il.pest`; nothing
-//! outside this module knows pest reads it.
+//! Parsing of text to a syntax tree and printing of the tree, and reading of PLCopen projects in XML to the same tree.
+//! The grammar is `grammar/il.pest`; only this module knows that pest reads it.
 
 pub mod ast;
 mod comments;
@@ -15,7 +15,7 @@ pub use comments::{Comments, comments, requirements_in_comments};
 pub use dialect::{standard_address, standard_operator};
 pub use parse::parse;
 
-/// The text with blanks instead of comments, of the same length.
+/// Replaces the comments of a text by blanks, so that its length does not change.
 #[must_use]
 pub fn without_comments(text: &str) -> String {
     comments::blank(text, 0).0

@@ -1,26 +1,26 @@
-//! How deeply declarations, and lists in the calls of lists, are nested: counted before the grammar, which follows every level
-//! with a call of its own.
+//! Nesting depth of declarations, and of lists in the calls of lists: counted before parsing, since the parser follows
+//! every level with a call of its own.
 
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// Arrays, structures and initial values may be nested this deep. Real programs stay below five.
+/// Maximum nesting depth of arrays, structures and initial values. Real programs stay below five.
 const MAX_DEPTH: usize = 100;
 
-/// Lists that give inputs of calls their values may be nested this deep.
+/// Maximum nesting depth of lists that compute inputs of calls.
 const MAX_LISTS: usize = 20;
 
-/// What is nested at some place of the text.
+/// Open constructs at a place of the text.
 #[derive(Default)]
 struct Nesting {
     /// Whether a block of declarations is open.
     declares: bool,
     structures: usize,
-    /// `ARRAY` since the last `;`.
+    /// Number of `ARRAY` since the last `;`.
     arrays: usize,
-    /// `(` and `[`.
+    /// Number of open `(` and `[`.
     brackets: usize,
-    /// For each `(` behind a `:=` that is open, the number of brackets with it.
+    /// For each open `(` after a `:=`, the number of open brackets including it.
     lists: Vec<usize>,
     /// Whether a `:=` has just been read.
     assigns: bool,
@@ -67,8 +67,8 @@ impl Nesting {
     }
 }
 
-/// Reports the first place of a text without comments, which begins at an offset, where declarations or lists are nested too
-/// deeply.
+/// Reports the first place of a text where declarations or lists are nested too deeply. The text has no comments and
+/// begins at offset `start`.
 pub fn too_deep(text: &str, start: usize) -> Option<Diagnostic> {
     let bytes = text.as_bytes();
     let is_word = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';
@@ -108,7 +108,7 @@ pub fn too_deep(text: &str, start: usize) -> Option<Diagnostic> {
         }
         nesting.assigns = match bytes[at] {
             b'=' => at > 0 && bytes[at - 1] == b':',
-            // What the grammar takes for a blank is one of these.
+            // Every blank of the grammar is one of these characters.
             b => nesting.assigns && (b.is_ascii_whitespace() || b == 0x0B || !b.is_ascii()),
         };
         at += length;

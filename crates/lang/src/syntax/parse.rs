@@ -1,4 +1,4 @@
-//! The front door: text to [`Unit`], with every syntax error of the text.
+//! Parsing of a text to a [`Unit`], with every syntax error of the text.
 
 use pest::Parser;
 use pest_derive::Parser;
@@ -12,8 +12,8 @@ use petril_base::source::{Source, Span};
 #[grammar = "../../grammar/il.pest"]
 pub(super) struct IlParser;
 
-/// Reads a text, or a PLCopen project in XML. What cannot be read is reported and left out of the tree, so that the static
-/// rules can look at the rest.
+/// Parses a text, or a PLCopen project in XML. Whatever cannot be read is reported and left out of the tree, so that
+/// the static rules can check the rest.
 #[must_use]
 pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     if plcopen::is_xml(source) {
@@ -21,7 +21,7 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     }
     let (text, unclosed) = comments::blank(source.text(), 0);
     if let Some(unclosed) = unclosed {
-        // What an open comment hides is missing everywhere: no more than its opening is worth telling.
+        // An open comment hides what follows, and everything hidden would be missing: only its opening is reported.
         return (Unit::default(), vec![unclosed]);
     }
     if let Some(too_deep) = nesting::too_deep(&text, 0) {
@@ -33,7 +33,7 @@ pub fn parse(source: &Source) -> (Unit, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
     let unit = match IlParser::parse(Rule::unit, &text) {
         Ok(mut pairs) => pairs.next().map(|pair| consume::unit(pair, &mut diagnostics)).unwrap_or_default(),
-        // The grammar reads any text, so this is a limit of the parser itself.
+        // The grammar accepts any text, so the error is a limit of the parser itself.
         Err(error) => {
             diagnostics.push(expected::diagnostic(&error, &text, 0));
             Unit::default()

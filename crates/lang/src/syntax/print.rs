@@ -1,5 +1,5 @@
-//! The canonical text of a syntax tree: one instruction a line, operators in upper case, parentheses closed on a line of
-//! their own. Reading it back gives the same tree.
+//! Canonical text of a syntax tree: one instruction a line, operators in upper case, parentheses closed on a line of
+//! their own. Parsing it gives the same tree.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -163,7 +163,7 @@ fn separated<T: Display>(items: &[T]) -> String {
     items.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// What stands behind a name that is called.
+/// Text of the arguments after the name of a called unit.
 fn arguments(arguments: &Arguments) -> String {
     match (arguments.list.is_empty(), arguments.enclosed) {
         (true, _) => String::new(),

@@ -1,69 +1,69 @@
-//! One device of the plant: a connected net, its markings, and its nodes in the system net.
+//! Device of the plant: a connected net, its markings, and its nodes in the system net.
 
 use crate::translate::provenance::{PlaceRole, TransitionRole};
 use crate::translate::weaver::Weaver;
 use petril_lang::semantics::VarId;
 use petril_net::net::{Arcs, PlaceId};
 
-/// A connected component of a plant net.
+/// Connected component of a plant net.
 #[derive(Clone, Debug)]
 pub struct Component {
-    /// The name of its net, numbered if the net has several components.
+    /// Name of the net, numbered if the net has several components.
     pub name: String,
-    /// Its places.
+    /// Places of the component.
     pub places: Vec<PlantPlace>,
-    /// Its transitions.
+    /// Transitions of the component.
     pub transitions: Vec<PlantTransition>,
-    /// Its reachable markings when outputs may have any value; the first is the initial one.
+    /// Reachable markings if outputs may have any value; the first is the initial one.
     pub markings: Vec<LocalMarking>,
 }
 
-/// A place of the plant.
+/// Place of the plant.
 #[derive(Clone, Debug)]
 pub struct PlantPlace {
-    /// Its name in the system net: `net.place`.
+    /// Name in the system net: `net.place`.
     pub name: String,
-    /// Whether it is marked at the beginning.
+    /// Whether the place is marked initially.
     pub marked: bool,
-    /// The external values it stands for.
+    /// External values of inputs while the place is marked.
     pub drives: Vec<(VarId, u64)>,
 }
 
-/// A transition of the plant. Places are positions in [`Component::places`].
+/// Transition of the plant. Places are positions in [`Component::places`].
 #[derive(Clone, Debug)]
 pub struct PlantTransition {
-    /// Its name in the system net: `net.transition`.
+    /// Name in the system net: `net.transition`.
     pub name: String,
-    /// Places from which it takes a token.
+    /// Places from which the transition removes a token.
     pub consume: Vec<usize>,
-    /// Places on which it puts one.
+    /// Places to which the transition adds a token.
     pub produce: Vec<usize>,
-    /// Places that must be marked.
+    /// Places that must be marked (read arcs).
     pub read: Vec<usize>,
     /// Values that outputs must have.
     pub tests: Vec<(VarId, u64)>,
 }
 
 impl PlantTransition {
-    /// Whether it asks an output for two values at once.
+    /// Whether the transition tests an output for two values at once.
     fn contradicts_itself(&self) -> bool {
         let differs = |&(output, value): &(VarId, u64)| self.tests.iter().any(|&(o, v)| o == output && v != value);
         self.tests.iter().any(differs)
     }
 }
 
-/// A reachable marking of a component.
+/// Reachable marking of a component.
 #[derive(Clone, Debug)]
 pub struct LocalMarking {
-    /// The marked places, ascending.
+    /// Marked places, ascending.
     pub marked: Vec<usize>,
-    /// The external values: one for each input the component drives.
+    /// External values: one for each input that the component drives.
     pub inputs: Vec<(VarId, u64)>,
-    /// Where its transitions lead, if the outputs they test have the right values.
+    /// Firings from the marking, each possible if the outputs that the transition tests have the right values.
     pub moves: Vec<Move>,
 }
 
-/// A firing in a component.
+/// Firing of a transition in a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Move {
     /// Position in [`Component::transitions`].
@@ -73,13 +73,13 @@ pub struct Move {
 }
 
 impl Component {
-    /// Whether it drives an input.
+    /// Whether the component drives an input.
     #[must_use]
     pub fn drives(&self, input: VarId) -> bool {
         self.places.iter().any(|place| place.drives.iter().any(|&(variable, _)| variable == input))
     }
 
-    /// The transitions that can never fire, by position: whatever the outputs are, no marking that can be reached enables them.
+    /// Dead transitions, by position: whatever the outputs are, no reachable marking enables them.
     #[must_use]
     pub fn dead_transitions(&self) -> Vec<usize> {
         let mut fires = vec![false; self.transitions.len()];
@@ -88,8 +88,8 @@ impl Component {
         (0..fires.len()).filter(|&position| !fires[position] || transitions[position].contradicts_itself()).collect()
     }
 
-    /// The markings it can come to from `from` by any number of moves while the outputs keep their values, each with the
-    /// move that first led there; `from` itself comes first. Nearest first.
+    /// Markings reachable from `from` by any number of moves while the outputs keep their values, each with its
+    /// predecessor and the move that first led there; in breadth-first order, `from` itself first.
     #[must_use]
     pub fn closure(&self, from: usize, output: impl Fn(VarId) -> u64) -> Vec<(usize, Option<(usize, Move)>)> {
         let mut reached = vec![(from, None)];
@@ -109,7 +109,7 @@ impl Component {
         reached
     }
 
-    /// The names of the transitions that lead from one marking to another, as few as possible.
+    /// Shortest sequence of transitions, by position, from one marking to another.
     #[must_use]
     pub fn path(&self, from: usize, to: usize, output: impl Fn(VarId) -> u64) -> Option<Vec<usize>> {
         let closure = self.closure(from, output);
@@ -124,18 +124,18 @@ impl Component {
         Some(path)
     }
 
-    /// Adds the place whose token lets the component move. A component without transitions needs none.
+    /// Adds the blocking place, whose token lets the component move. A component without transitions needs none.
     pub(in crate::translate) fn add_blocking_place(&self, weaver: &mut Weaver, index: usize) -> Option<PlaceId> {
         let name = format!("block_{}", self.name);
         (!self.transitions.is_empty()).then(|| weaver.place(&name, true, PlaceRole::Blocking(index)))
     }
 
-    /// Adds its places.
+    /// Adds the places of the component.
     pub(in crate::translate) fn add_places(&self, weaver: &mut Weaver, index: usize) -> Vec<PlaceId> {
         self.places.iter().map(|place| weaver.place(&place.name, place.marked, PlaceRole::Plant(index))).collect()
     }
 
-    /// Adds its transitions, with the blocking place as a side condition.
+    /// Adds the transitions of the component, with the blocking place as a side condition.
     pub(in crate::translate) fn add_transitions(
         &self,
         weaver: &mut Weaver,

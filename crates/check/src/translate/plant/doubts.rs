@@ -1,4 +1,4 @@
-//! Doubtful parts of a plant: they can be taken as they are, but a name is probably mistyped.
+//! Warnings about doubtful parts of a plant, which is accepted as it is: a name is probably mistyped.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use super::read::Device;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_net::net::{Located, PlaceId};
 
-/// The warnings about the devices of a net, in the order of its text.
+/// Warnings about the devices of a net, in the order of its text.
 pub fn warnings(file: &Located, devices: &[Device]) -> Vec<Diagnostic> {
     let mut warnings: Vec<Diagnostic> = devices.iter().flat_map(|device| dead_transitions(file, device)).collect();
     warnings.extend(undeclared_sinks(file, devices));
@@ -34,7 +34,8 @@ fn dead_transitions<'a>(file: &'a Located, device: &'a Device) -> impl Iterator<
     })
 }
 
-/// A mistyped name makes a place of its own, in which the device stands still for ever.
+/// Warnings about undeclared places that no transition leaves: a mistyped name makes such a place, in which the device
+/// stays for ever.
 fn undeclared_sinks(file: &Located, devices: &[Device]) -> Vec<Diagnostic> {
     let left = file.net.transition_ids().flat_map(|id| file.net.arcs(id).consume.iter().copied());
     let left: BTreeSet<PlaceId> = left.collect();

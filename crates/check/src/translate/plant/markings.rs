@@ -1,4 +1,4 @@
-//! The reachable markings of a device, and what they show: whether it is safe, and whether every input it drives has
+//! Reachable markings of a device, and the checks on them: whether it is safe, and whether every input it drives has
 //! exactly one value in each of them.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,14 +9,14 @@ use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::VarId;
 use petril_net::net::{Located, PlaceId};
 
-/// A device may have this many markings. Real ones have tens; the limit is there for nets that are no devices.
+/// Maximum number of markings of a device. Real ones have tens; the limit is for nets that are not devices.
 const MAX_MARKINGS: usize = 1 << 16;
 
-/// All markings of a device together may mark this many places: what they take in memory.
+/// Maximum number of marked places in all markings of a device together, which bounds their memory.
 const MAX_MARKED: usize = 1 << 22;
 
-/// Fills in the markings of a component, whatever values the outputs have: what holds of all these markings holds of those
-/// that occur with the program.
+/// Explores the markings of a component for any values of the outputs. Whatever holds of all these markings holds of
+/// those that occur with the program.
 pub fn explore(
     component: &mut Component,
     places: &[PlaceId],
@@ -74,11 +74,11 @@ pub fn explore(
     Ok(())
 }
 
-/// Which transitions can be enabled in a marking: those whose first place is marked.
+/// Index of the transitions that can be enabled in a marking: those whose first place is marked.
 struct Candidates {
-    /// By place, the transitions that take from or read it before any other.
+    /// Transitions by the first place that they consume from or read.
     by_place: Vec<Vec<usize>>,
-    /// Transitions that need no place.
+    /// Transitions with an empty preset.
     always: Vec<usize>,
 }
 
@@ -94,7 +94,7 @@ impl Candidates {
         candidates
     }
 
-    /// The candidates in a marking, ascending.
+    /// Candidates in a marking, ascending.
     fn at(&self, marked: &[usize]) -> Vec<usize> {
         let by_place = marked.iter().flat_map(|&place| &self.by_place[place]);
         let mut positions: Vec<usize> = by_place.chain(&self.always).copied().collect();
@@ -103,14 +103,14 @@ impl Candidates {
     }
 }
 
-/// An input without a value, or with two marked places that give it one.
+/// Input without a value, or with two marked places that give it one.
 #[derive(Clone, Copy)]
 enum Ambiguity {
     None { input: VarId },
     Several { input: VarId, places: (usize, usize) },
 }
 
-/// The value of each driven input, if the marking gives exactly one.
+/// Value of each driven input, if the marking gives exactly one.
 fn external_values(
     component: &Component,
     driven: &BTreeSet<VarId>,
@@ -153,7 +153,7 @@ fn ambiguous(
     Box::new(diagnostic.help(format!("this is so {history}; exactly one such place must be marked, always")))
 }
 
-/// How a marking is reached, in words.
+/// Sentence on how a marking is reached.
 fn history(component: &Component, parents: &[Option<(usize, usize)>], mut marking: usize) -> String {
     let mut fired = Vec::new();
     while let Some((earlier, transition)) = parents[marking] {

@@ -1,4 +1,4 @@
-//! A net to devices of a plant, with every check that a plant must pass.
+//! Devices of a plant from a net, with every check that a plant must pass.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,11 +13,11 @@ use petril_lang::flat::{FlatProgram, Variable};
 use petril_lang::semantics::{Role, VarId};
 use petril_net::net::{Arcs, Located, PlaceId, TransitionId};
 
-/// What a place of the net is to the program.
+/// Meaning of a place of the net for the program.
 enum Meaning {
-    /// A place of the plant, with the external values it stands for.
+    /// Place of the plant, with the external values it stands for.
     Own(Vec<(VarId, u64)>),
-    /// The program's outputs have these values.
+    /// Place of the program, marked while its outputs have these values.
     Test(Vec<(VarId, u64)>),
 }
 
@@ -29,14 +29,14 @@ impl Meaning {
     }
 }
 
-/// A component, with the nodes of the net it is made of.
+/// Component, with the nodes of the net it is made of.
 pub struct Device {
     pub component: Component,
     pub places: Vec<PlaceId>,
     pub transitions: Vec<TransitionId>,
 }
 
-/// The devices of a net.
+/// Checks a net and splits it into devices.
 pub fn devices(file: &Located, program: &FlatProgram, others: &Plant) -> Result<Vec<Device>, Vec<Diagnostic>> {
     let net = &file.net;
     let mut errors = Vec::new();
@@ -50,7 +50,7 @@ pub fn devices(file: &Located, program: &FlatProgram, others: &Plant) -> Result<
     for place in net.place_ids() {
         match meaning(file, place, program, errors.len()) {
             Ok(meaning) => meanings.push(meaning),
-            // A variable that does not exist is missed by a place for each of its values.
+            // An unknown variable occurs in a place for each of its values.
             Err(error) => errors.extend(messages.insert(error.message.clone()).then_some(error)),
         }
     }
@@ -96,8 +96,8 @@ pub fn devices(file: &Located, program: &FlatProgram, others: &Plant) -> Result<
     if errors.is_empty() { Ok(devices) } else { Err(errors) }
 }
 
-/// Two places that give the same inputs the same values are one by what they say, and two in the net: the same valuation in another
-/// spelling is not what the transitions of the first one see.
+/// Reports places that give the same inputs the same values: they mean the same but are two places, and the transitions
+/// of one do not see a token on the other, which is spelt differently.
 fn valuations_twice(file: &Located, meanings: &[Meaning]) -> Vec<Diagnostic> {
     let mut first: BTreeMap<Vec<(VarId, u64)>, PlaceId> = BTreeMap::new();
     let mut errors = Vec::new();
@@ -123,7 +123,7 @@ fn valuations_twice(file: &Located, meanings: &[Meaning]) -> Vec<Diagnostic> {
     errors
 }
 
-/// What a place is to the program; `position` is that of its diagnostic, if there will be one.
+/// Meaning of a place for the program; `position` is that of its diagnostic, if there will be one.
 fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usize) -> Result<Meaning, Diagnostic> {
     let (name, span) = (file.net.place(place).name, file.place_span(place));
     let unfit = |message: String| Diagnostic::new(Code::PlantVariableUnfit, span, message);
@@ -182,7 +182,7 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
     Ok(Meaning::Test(values))
 }
 
-/// The pattern of a value, if it is one of the variable.
+/// Pattern of a value, if the variable can have it.
 fn pattern(variable: &Variable, value: Value) -> Option<u64> {
     let ty = variable.ty;
     let number = match value {
@@ -194,14 +194,14 @@ fn pattern(variable: &Variable, value: Value) -> Option<u64> {
     (pattern.checked_shr(variable.bits).unwrap_or(0) == 0).then_some(pattern)
 }
 
-/// The names a component gives to nodes of the system net.
+/// Names that a component gives to nodes of the system net, and its own.
 fn names(component: &Component) -> impl Iterator<Item = &str> {
     let places = component.places.iter().map(|place| place.name.as_str());
     let transitions = component.transitions.iter().map(|transition| transition.name.as_str());
     places.chain(transitions).chain([component.name.as_str()])
 }
 
-/// The connected components. Outputs connect nothing.
+/// Splits a net into its connected components. Places of outputs connect nothing.
 fn split(file: &Located, meanings: &[Meaning], errors: &mut Vec<Diagnostic>) -> Vec<Device> {
     let net = &file.net;
     let offset = net.places().len();

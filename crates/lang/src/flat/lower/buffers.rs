@@ -1,4 +1,4 @@
-//! Variables that flattening makes for itself.
+//! Buffers: variables that flattening adds.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,34 +9,34 @@ use crate::syntax::ast::key;
 
 use super::places::Address;
 
-/// The buffers made so far.
+/// Buffers made so far.
 #[derive(Default)]
 pub struct Buffers {
-    /// Names that are taken.
+    /// Names in use.
     taken: BTreeSet<String>,
-    /// How many letters have been tried.
+    /// Number of letters tried as names.
     letters: usize,
-    /// Holds the current result while the parenthesis of this depth is computed.
+    /// Buffers of left operands, by type and nesting depth of the parenthesis: the current result while it is computed.
     left: BTreeMap<(Type, usize), VarId>,
-    /// Holds the value of a parenthesis until its operator takes it.
+    /// Buffers of right operands, by type: the value of a parenthesis until its operator takes it.
     right: BTreeMap<Type, VarId>,
-    /// Indices that choose what in-out variables stand for, while their call lasts.
+    /// Indices of elements that in-out variables stand for, held while their call lasts.
     held: BTreeSet<VarId>,
-    /// Buffers that nothing needs at the moment.
+    /// Unused buffers, by type and number of bits.
     free: BTreeMap<(Type, u32), Vec<VarId>>,
-    /// The variables of functions, and those of function blocks that begin anew with each call.
+    /// Variables of functions, and those of function blocks that are initialised at each call.
     pub units: BTreeMap<PouId, Vec<Option<Address>>>,
 }
 
 impl Buffers {
-    /// Notes that a name is taken.
+    /// Marks a name as used.
     pub fn take(&mut self, name: &str) {
         self.taken.insert(key(name));
     }
 }
 
 impl Lowering<'_> {
-    /// The buffers of a parenthesis at a depth: for the result before it, and for its own value.
+    /// Buffers of a parenthesis at a nesting depth: for the left operand, and for the value of the parenthesis.
     pub fn parenthesis_buffers(&mut self, ty: Type, depth: usize) -> (VarId, VarId) {
         let left = match self.buffers.left.get(&(ty, depth)) {
             Some(&left) => left,
@@ -54,7 +54,7 @@ impl Lowering<'_> {
         (left, right)
     }
 
-    /// A buffer of so many stored bits, until it is released.
+    /// Takes a buffer of a type that stores `bits` bits, until it is released.
     pub fn acquire(&mut self, ty: Type, bits: u32) -> VarId {
         match self.buffers.free.get_mut(&(ty, bits)).and_then(Vec::pop) {
             Some(buffer) => buffer,
@@ -62,7 +62,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Gives a buffer back.
+    /// Releases a buffer for reuse, unless it is held as an index.
     pub fn release(&mut self, buffer: VarId) {
         if self.buffers.held.contains(&buffer) {
             return;
@@ -73,19 +73,20 @@ impl Lowering<'_> {
         free.push(buffer);
     }
 
-    /// Keeps the index of an address from being released until [`Lowering::let_go`]; the index, unless it is kept already.
+    /// Keeps the index of an address from being released until [`Lowering::let_go`]; returns it, unless it is held
+    /// already.
     pub fn hold(&mut self, address: Address) -> Option<VarId> {
         let Address::Indexed(element) = address else { return None };
         self.buffers.held.insert(element.index).then_some(element.index)
     }
 
-    /// Releases an index that was kept.
+    /// Releases an index that was held.
     pub fn let_go(&mut self, index: VarId) {
         self.buffers.held.remove(&index);
         self.release(index);
     }
 
-    /// A name like this one that is not taken.
+    /// Makes an unused name from this one, by appending a number if necessary.
     pub fn unused(&mut self, name: &str) -> String {
         let numbered = (1..).map(|number| format!("{name}_{number}"));
         let mut names = [name.to_owned()].into_iter().chain(numbered);
@@ -94,7 +95,7 @@ impl Lowering<'_> {
         name
     }
 
-    /// A new variable named by the first of A, B, …, Z, A1, B1, … that is not taken.
+    /// Adds a variable named by the first of A, B, …, Z, A1, B1, … that is not in use.
     fn fresh(&mut self, ty: Type, bits: u32) -> VarId {
         let name = loop {
             let letter = char::from(b'A' + (self.buffers.letters % 26) as u8);

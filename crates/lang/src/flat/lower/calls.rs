@@ -1,4 +1,4 @@
-//! Calls, written out.
+//! Inlining of calls.
 
 use std::collections::BTreeMap;
 
@@ -79,9 +79,9 @@ impl<'p> Lowering<'p> {
         self.place_label(done);
     }
 
-    /// Hands over the inputs, from left to right.
+    /// Stores the inputs, from left to right.
     fn inputs(&mut self, frame: &Frame<'p>, call: &Call, pou: &Pou, variables: &[Option<Address>], depth: usize) {
-        // The variables of a function are those of all its calls, and a list may be one; an instance has its own.
+        // All calls of a function share its variables, and a list may contain one; an instance has its own.
         let early = if pou.kind == PouKind::Function { early(call.inputs.iter().map(|(_, feed)| feed)) } else { 0 };
         let ready: Vec<VarId> = call.inputs[..early].iter().map(|(_, feed)| self.ready(frame, feed, depth)).collect();
         for (position, (input, feed)) in call.inputs.iter().enumerate() {
@@ -95,7 +95,7 @@ impl<'p> Lowering<'p> {
         ready.into_iter().for_each(|buffer| self.release(buffer));
     }
 
-    /// Writes outputs of what was called to variables of the caller.
+    /// Stores outputs of the called unit in variables of the caller.
     fn outputs(&mut self, frame: &Frame<'p>, inner: &Frame<'p>, outputs: &[(usize, bool, Place)], span: Span) {
         for (output, negated, place) in outputs {
             let Some(scalar) = inner.pou.variables[*output].shape.scalar() else { continue };
@@ -114,7 +114,7 @@ impl<'p> Lowering<'p> {
         buffer
     }
 
-    /// Makes a value the current result.
+    /// Loads a value into the current result.
     pub fn load_feed(&mut self, frame: &Frame<'p>, feed: &Feed, depth: usize) {
         let ty = frame.pou.types[feed.ty.0];
         let span = frame.span.unwrap_or(feed.span);
@@ -129,7 +129,7 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// `EN`: goes to `skip` if the call is not to be executed.
+    /// `EN`: jumps to `skip` if the call is not to be executed.
     pub fn enabled(&mut self, frame: &Frame<'p>, enable: &Enable, (skip, depth): (Label, usize), span: Span) {
         if let Some(en) = &enable.en {
             self.load_feed(frame, en, depth);
@@ -137,7 +137,7 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// `ENO`: gets whether the call was executed.
+    /// `ENO`: stores whether the call was executed.
     pub fn eno(&mut self, frame: &Frame<'p>, enable: &Enable, executed: bool, span: Span) {
         if let Some((negated, place)) = &enable.eno {
             self.load(Type::BOOL, Operand::Constant(u64::from(executed)), span);
@@ -152,7 +152,7 @@ impl<'p> Lowering<'p> {
         self.emit(Instruction::Store { ty, negated: false, target: address.target() }, span);
     }
 
-    /// The variables of an instance: its own, those that begin anew, and global ones.
+    /// Addresses of the variables of an instance: its own, and the buffers of those that are initialised at each call.
     fn instance(&mut self, frame: &Frame<'p>, id: PouId, place: &Place, span: Span) -> Vec<Option<Address>> {
         let base = direct(self.address(frame, place, None, span)).0;
         let mut variables = self.own_variables(id);
@@ -165,8 +165,8 @@ impl<'p> Lowering<'p> {
         variables
     }
 
-    /// The buffers of a unit: all variables of a function, the temporary ones of a function block. No unit is called while
-    /// it is executed, so all its calls share them.
+    /// Buffers of a unit: all variables of a function, the temporary ones of a function block. Recursion is excluded,
+    /// so all calls share them.
     fn own_variables(&mut self, id: PouId) -> Vec<Option<Address>> {
         if let Some(known) = self.buffers.units.get(&id) {
             return known.clone();
@@ -194,7 +194,7 @@ impl<'p> Lowering<'p> {
         variables
     }
 
-    /// A variable gets the value it has at power-on.
+    /// Sets a variable to its initial value.
     pub fn initialise(&mut self, frame: &Frame<'p>, position: usize, span: Span) {
         let variable = &frame.pou.variables[position];
         let Some(first) = frame.variables[position].map(|address| direct(address).0) else { return };
@@ -212,8 +212,8 @@ impl<'p> Lowering<'p> {
     }
 }
 
-/// Number of arguments up to the last list. They are computed before any of them is used, from left to right: a list may call
-/// what writes the variables that stand before it.
+/// Number of arguments up to the last list. These are computed before any of them is used, from left to right: a list
+/// may call a unit that writes the variables named before it.
 pub fn early<'f>(arguments: impl Iterator<Item = &'f Feed>) -> usize {
     let last = arguments.enumerate().filter(|(_, feed)| matches!(feed.source, FeedSource::List(_))).last();
     last.map_or(0, |(position, _)| position + 1)

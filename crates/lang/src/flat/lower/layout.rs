@@ -1,4 +1,4 @@
-//! Composite variables as elementary ones in a row.
+//! Layout of composite variables as elementary variables in a row.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::flat::{Restriction, Variable};
 use crate::semantics::{Area, PouId, Program, Role, Scalar, Section, Shape, Value, VarId, elements};
 use petril_base::source::Span;
 
-/// How many elementary variables each unit's variables take, and where in its row each begins.
+/// Number of elementary variables that each unit's variables take, and the offset of each in its row.
 pub struct Layouts<'p> {
     program: &'p Program,
     known: BTreeMap<PouId, (usize, Vec<usize>)>,
@@ -19,7 +19,7 @@ impl<'p> Layouts<'p> {
         Self { program, known: BTreeMap::new() }
     }
 
-    /// How many elementary variables a shape takes.
+    /// Number of elementary variables that a shape takes.
     pub fn size(&mut self, shape: &Shape) -> usize {
         match shape {
             Shape::Scalar(_) => 1,
@@ -29,7 +29,7 @@ impl<'p> Layouts<'p> {
         }
     }
 
-    /// Where the member of a structure, or the variable of an instance, begins.
+    /// Offset of a member of a structure, or of a variable of an instance, in elementary variables.
     pub fn offset(&mut self, shape: &Shape, member: usize) -> usize {
         match shape {
             Shape::Structure(structure) => {
@@ -40,7 +40,7 @@ impl<'p> Layouts<'p> {
         }
     }
 
-    /// The size of an instance and where each of its variables begins.
+    /// Size of an instance and offset of each of its variables, in elementary variables.
     fn instance(&mut self, id: PouId) -> (usize, Vec<usize>) {
         if let Some(known) = self.known.get(&id) {
             return known.clone();
@@ -63,7 +63,7 @@ pub fn is_kept(section: Section) -> bool {
     matches!(section, Section::Input | Section::Output | Section::Local | Section::Constant)
 }
 
-/// What a variable of the program is for.
+/// Role of a variable of the program.
 pub fn role(section: Section, area: Option<Area>) -> Role {
     match (section, area) {
         (Section::Input, _) | (_, Some(Area::Input)) => Role::Input,
@@ -73,7 +73,7 @@ pub fn role(section: Section, area: Option<Area>) -> Role {
     }
 }
 
-/// What the elementary variables of a shape have in common.
+/// Common properties of the elementary variables of a shape.
 #[derive(Clone)]
 pub struct Leaf {
     pub name: String,
@@ -82,7 +82,7 @@ pub struct Leaf {
 }
 
 impl Lowering<'_> {
-    /// Makes the elementary variables of a shape; the first one's address.
+    /// Adds the elementary variables of a shape; returns the address of the first one.
     pub fn variables_of(&mut self, leaf: &Leaf, shape: &Shape, initial: &Value) -> Address {
         let first = self.variables.len();
         self.add(leaf, shape, initial);
@@ -133,7 +133,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The elementary types of a shape and their values at power-on, in their order.
+    /// Elementary types of a shape and their initial values, in their order.
     pub fn values(&mut self, shape: &Shape, initial: &Value) -> Vec<(Scalar, u64)> {
         match shape {
             Shape::Scalar(scalar) => vec![(scalar.clone(), pattern(scalar, initial))],
@@ -151,7 +151,7 @@ impl Lowering<'_> {
                     })
                     .collect()
             }
-            // Instances live in variables that are never begun anew.
+            // Instances are in variables that are never initialised again.
             Shape::Instance(_) => Vec::new(),
         }
     }
@@ -159,12 +159,13 @@ impl Lowering<'_> {
 
 fn variable(leaf: &Leaf, scalar: &Scalar, initial: &Value) -> Variable {
     let initial = pattern(scalar, initial);
-    // An enumeration has few values, and no way leads to another: it is given constants, copies, and inputs with its values.
+    // An enumeration has few values, and nothing leads to others: it is given constants, copies, and inputs with its
+    // values.
     let bits = scalar.enumeration.as_ref().map_or(scalar.ty.width, |e| bits_for(e.values.len() as u64 - 1));
     Variable { name: leaf.name.clone(), role: leaf.role, ty: scalar.ty, bits, initial, span: Some(leaf.span) }
 }
 
-/// The bits that numbers up to this one need.
+/// Number of bits that numbers up to `greatest` need, at least 1.
 pub fn bits_for(greatest: u64) -> u32 {
     (u64::BITS - greatest.leading_zeros()).max(1)
 }
@@ -185,7 +186,7 @@ fn parts(value: &Value) -> BTreeMap<usize, &Value> {
     }
 }
 
-/// The indices of an array's elements as they are written, the last one fastest.
+/// Indices of an array's elements as they are written, the last one fastest.
 fn indices(ranges: &[(i64, i64)]) -> impl Iterator<Item = String> {
     let ranges = ranges.to_vec();
     (0..elements(&ranges)).map(move |position| {
@@ -201,7 +202,7 @@ fn indices(ranges: &[(i64, i64)]) -> impl Iterator<Item = String> {
     })
 }
 
-/// The variable at an address that is known.
+/// Variable at an address that is known; the first one if an index selects it.
 pub fn direct(address: Address) -> VarId {
     match address {
         Address::Direct(first) => VarId(first),

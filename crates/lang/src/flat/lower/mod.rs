@@ -1,4 +1,4 @@
-//! Checked program to flat code: calls written out, parentheses buffered, labels resolved.
+//! Lowering of a checked program to flat code: calls inlined, parentheses buffered, labels resolved.
 
 mod buffers;
 mod calls;
@@ -18,19 +18,19 @@ use layout::{Layouts, Leaf};
 use petril_base::source::Span;
 use places::Address;
 
-/// The time from one scan to the next if neither a task nor the user says it, in milliseconds.
+/// Scan time in milliseconds, if neither a task nor the user gives it.
 pub const DEFAULT_SCAN_TIME: u64 = 20;
 
-/// Flattens a program whose scans come as often as its task says.
+/// Flattens a program; the scan time is the interval of its task.
 #[must_use]
 pub fn flatten(program: &Program) -> FlatProgram {
     flatten_with(program, None)
 }
 
-/// Flattens a program whose scans come every so many milliseconds, if that is given.
+/// Flattens a program with a scan time in milliseconds, if one is given.
 ///
-/// A call becomes the instructions of what is called, on variables of its own: `t.Q` is the output of the instance `t`. A
-/// return becomes a jump behind them. `AND( x … )` becomes `ST A`, `LD x`, …, `ST B`, `LD A`, `AND B`.
+/// A call becomes the instructions of the called unit, on variables of its own: `t.Q` is the output of the instance
+/// `t`. A return becomes a jump after them. `AND( x … )` becomes `ST A`, `LD x`, …, `ST B`, `LD A`, `AND B`.
 #[must_use]
 pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     let mut lowering = Lowering::new(program, scan_time.or(program.interval).unwrap_or(DEFAULT_SCAN_TIME));
@@ -50,20 +50,20 @@ pub fn flatten_with(program: &Program, scan_time: Option<u64>) -> FlatProgram {
     flat
 }
 
-/// A line that is not known yet, as a position in [`Lowering::labels`].
+/// Line that is not known yet, as a position in [`Lowering::labels`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Label(usize);
 
-/// A unit while its instructions are written out.
+/// Unit whose instructions are being lowered, for one call.
 struct Frame<'p> {
     pou: &'p Pou,
-    /// Where each of its variables is; nowhere if nothing can name it.
+    /// Address of each variable of the unit; `None` if nothing can name it.
     variables: Vec<Option<Address>>,
-    /// How many parentheses around its call hold a value meanwhile.
+    /// Number of parentheses around the call whose left operands are in buffers meanwhile.
     depth: usize,
-    /// Where a return goes.
+    /// Label that a return jumps to.
     exit: Label,
-    /// What its lines come from, if they have no text of their own.
+    /// Source of all lines of the unit, if they have no text of their own.
     span: Option<Span>,
 }
 
@@ -76,7 +76,7 @@ struct Lowering<'p> {
     addresses: BTreeMap<String, VarId>,
     internal: BTreeSet<VarId>,
     code: Vec<Line>,
-    /// The line of each label. Until the end, a jump's target is a label.
+    /// Line of each label. Until the end, a jump's target is a label.
     labels: Vec<usize>,
     buffers: Buffers,
     globals: Vec<Address>,
@@ -105,7 +105,7 @@ impl<'p> Lowering<'p> {
         &self.program.pous[&id]
     }
 
-    /// Makes the declared variables: those of the program, then the global ones.
+    /// Adds the declared variables: those of the program, then the global ones.
     fn allocate(&mut self) -> Frame<'p> {
         let pou = self.pou(self.program.entry);
         let mut variables = Vec::new();
@@ -132,7 +132,7 @@ impl<'p> Lowering<'p> {
             let address = self.variables_of(&leaf, &variable.shape, &variable.initial);
             self.globals.push(address);
         }
-        // Buffers stand behind everything that was declared.
+        // Buffers come after all declared variables.
         for (position, variable) in pou.variables.iter().enumerate() {
             if variable.section == Section::Temp {
                 let leaf = Leaf { name: self.unused(&variable.name), role: Role::Buffer, span: variable.span };
@@ -142,14 +142,14 @@ impl<'p> Lowering<'p> {
         Frame { pou, variables, depth: 0, exit: self.label(), span: None }
     }
 
-    /// Keeps the address of an elementary variable, which comes next.
+    /// Records the address of the elementary variable that is added next.
     fn locate(&mut self, variable: &semantics::Variable) {
         if let (Some(address), Shape::Scalar(_)) = (&variable.address, &variable.shape) {
             self.addresses.insert(address.clone(), VarId(self.variables.len()));
         }
     }
 
-    /// Variables that begin anew with every scan get their values.
+    /// Initialises the variables that are initialised in every scan.
     fn begin(&mut self, entry: &Frame<'p>) {
         let anew = |section| match entry.pou.kind {
             PouKind::Function => matches!(section, Section::Temp | Section::Local | Section::Output | Section::Result),
@@ -191,7 +191,7 @@ impl<'p> Lowering<'p> {
         self.labels[label.0] = self.code.len();
     }
 
-    /// Labels become lines.
+    /// Replaces labels by lines.
     fn resolve(&mut self) {
         for line in &mut self.code {
             if let Instruction::Jump { target, .. } = &mut line.instruction {

@@ -1,4 +1,4 @@
-//! Places to variables of flat code, with the instructions that compute an index.
+//! Lowering of places to variables of flat code, with the instructions that compute an index.
 
 use super::layout::bits_for;
 use super::{Frame, Lowering};
@@ -6,12 +6,12 @@ use crate::flat::{Element, Function, Hazard, Instruction, Operand, Target};
 use crate::semantics::{self, Index, Kind, Place, Root, Shape, Step, Type, VarId};
 use petril_base::source::Span;
 
-/// Where the first elementary variable of a place is.
+/// Address of the first elementary variable of a place.
 #[derive(Clone, Copy, Debug)]
 pub enum Address {
-    /// At this position.
+    /// Position among the variables.
     Direct(usize),
-    /// At a position that an index chooses.
+    /// Position selected by an index.
     Indexed(Element),
 }
 
@@ -23,7 +23,7 @@ impl Address {
         }
     }
 
-    /// The elementary variable.
+    /// Target for an elementary variable at the address.
     pub fn target(self) -> Target {
         match self {
             Self::Direct(first) => Target::Variable(VarId(first)),
@@ -32,7 +32,7 @@ impl Address {
     }
 }
 
-/// One of the indices that choose an element: a variable, the least value of its range, and how far apart its values are.
+/// Variable index of an element: the variable, the range of the index, and the distance between its values.
 struct Chosen {
     index: Target,
     ty: Type,
@@ -41,8 +41,8 @@ struct Chosen {
 }
 
 impl<'p> Lowering<'p> {
-    /// The address of a place. If an index has to be computed, the current result is kept, if it has a type; the buffer of the
-    /// index is to be released with [`Lowering::release_address`].
+    /// Computes the address of a place. If an index has to be computed, the current result is kept, if `result` is its
+    /// type; the buffer of the index is to be released with [`Lowering::release_address`].
     pub fn address(&mut self, frame: &Frame<'p>, place: &Place, result: Option<Type>, span: Span) -> Address {
         let (mut address, mut shape) = match place.root {
             Root::Own(position) => {
@@ -93,14 +93,14 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// The instructions that make one index of several.
+    /// Emits the instructions that combine several indices into one.
     fn indexed(&mut self, first: usize, chosen: &[Chosen], result: Option<Type>, span: Span) -> Address {
         let saved = result.map(|ty| {
             let buffer = self.acquire(ty, ty.width);
             self.store(ty, buffer, span);
             (ty, buffer)
         });
-        // The last index is the fastest; what it chooses are the steps of the whole.
+        // The last index is the fastest; its stride divides all others.
         let stride = chosen.last().map_or(1, |last| last.stride);
         let lengths = chosen.iter().map(|one| (one.range.1 - one.range.0) as usize * (one.stride / stride));
         let length = lengths.sum::<usize>() + 1;
@@ -158,14 +158,14 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// Gives the index of an address back.
+    /// Releases the index of an address.
     pub fn release_address(&mut self, operand: Operand) {
         if let Operand::Place(Target::Element(element)) = operand {
             self.release(element.index);
         }
     }
 
-    /// What an instruction reads.
+    /// Lowers the operand of an instruction.
     pub fn operand(
         &mut self,
         frame: &Frame<'p>,
@@ -180,7 +180,7 @@ impl<'p> Lowering<'p> {
     }
 }
 
-/// The least unsigned type of at least 8 bits that has all numbers up to this.
+/// Least unsigned type of at least 8 bits that has all numbers up to this, with a bit to spare.
 fn wide(greatest: i64) -> Type {
     let width = match greatest {
         ..0x80 => 8,

@@ -1,4 +1,4 @@
-//! Standard functions, written out.
+//! Lowering of standard functions.
 
 use super::calls::early;
 use super::{Frame, Lowering};
@@ -6,7 +6,7 @@ use crate::flat::{Function, Hazard, Instruction, Operand, Target};
 use crate::semantics::{Condition, Feed, FeedSource, Standard, StandardFunction, Type, VarId};
 use petril_base::source::Span;
 
-/// An argument that can be read as often as needed.
+/// Argument that can be read more than once.
 #[derive(Clone, Copy)]
 struct Argument {
     ty: Type,
@@ -22,7 +22,7 @@ impl<'p> Lowering<'p> {
         let first_ty = frame.pou.types[first.ty.0];
         let early = early(standard.arguments.iter());
         let ready: Vec<VarId> = standard.arguments[..early].iter().map(|feed| self.ready(frame, feed, depth)).collect();
-        // Nothing may disturb the current result once the first argument is in it.
+        // The current result must not change once the first argument is in it.
         let kept = matches!(first.source, FeedSource::Result).then_some(first_ty);
         let rest = standard.arguments.iter().enumerate().skip(1);
         let rest: Vec<Argument> =
@@ -52,7 +52,7 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// An argument that is in a buffer already, or an operand.
+    /// Argument that is in a buffer already, or an operand.
     fn argument(&mut self, frame: &Frame<'p>, feed: &Feed, ready: Option<VarId>, kept: Option<Type>) -> Argument {
         let ty = frame.pou.types[feed.ty.0];
         let operand = match (ready, &feed.source) {
@@ -64,7 +64,7 @@ impl<'p> Lowering<'p> {
         Argument { ty, operand }
     }
 
-    /// The function of the current result and the other arguments.
+    /// Applies the function to the current result and the other arguments.
     fn apply(&mut self, function: StandardFunction, from: Type, ty: Type, rest: &[Argument], span: Span) {
         match function {
             StandardFunction::Move => {}
@@ -113,7 +113,7 @@ impl<'p> Lowering<'p> {
         self.release(value);
     }
 
-    /// The other value becomes the current result if the comparison holds of the two.
+    /// Replaces the current result by the other value if the comparison of the two holds.
     fn replace_if(&mut self, comparison: Function, ty: Type, other: Argument, span: Span) {
         let (keep, done) = (self.label(), self.label());
         let value = self.acquire(ty, ty.width);
@@ -128,7 +128,7 @@ impl<'p> Lowering<'p> {
         self.release(value);
     }
 
-    /// `SEL`: the current result chooses between two values.
+    /// `SEL`: the current result selects one of two values.
     fn select(&mut self, ty: Type, rest: &[Argument], span: Span) {
         let [zero, one] = rest else { return };
         let (second, done) = (self.label(), self.label());
@@ -140,7 +140,7 @@ impl<'p> Lowering<'p> {
         self.place_label(done);
     }
 
-    /// `MUX`: the current result is the number of a value.
+    /// `MUX`: the current result is the number of the selected value, from 0.
     fn choose(&mut self, number: Type, ty: Type, rest: &[Argument], span: Span) {
         let done = self.label();
         let upper = rest.len() as i128 - 1;

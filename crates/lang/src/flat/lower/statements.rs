@@ -1,4 +1,4 @@
-//! Statements that are one instruction, and parentheses.
+//! Lowering of statements that are one instruction, and of parentheses.
 
 use super::{Frame, Label, Lowering};
 use crate::flat::{Function, Hazard, Instruction, Operand, Target};
@@ -6,7 +6,7 @@ use crate::semantics::{Action, Place, Scalar, Statement, Type, TypeId};
 use petril_base::source::Span;
 
 impl<'p> Lowering<'p> {
-    /// The instruction list of a unit.
+    /// Lowers the instruction list of a unit.
     pub fn body(&mut self, frame: &Frame<'p>) {
         let starts: Vec<Label> = (0..=frame.pou.body.len()).map(|_| self.label()).collect();
         for (statement, &start) in frame.pou.body.iter().zip(&starts) {
@@ -16,7 +16,7 @@ impl<'p> Lowering<'p> {
         self.place_label(starts[frame.pou.body.len()]);
     }
 
-    /// Statements inside a parenthesis or an argument.
+    /// Lowers the statements inside a parenthesis or an argument.
     pub fn sequence(&mut self, frame: &Frame<'p>, body: &[Statement], depth: usize) {
         body.iter().for_each(|statement| self.statement(frame, statement, depth, &[]));
     }
@@ -59,7 +59,7 @@ impl<'p> Lowering<'p> {
         }
     }
 
-    /// Stores the current result, after a look at the range that the place allows.
+    /// Stores the current result, after a check of the place's subrange.
     pub fn store_in(&mut self, frame: &Frame<'p>, ty: Type, negated: bool, place: &Place, span: Span) {
         self.bound(&place.scalar(), span);
         let target = self.address(frame, place, Some(ty), span).target();

@@ -1,4 +1,4 @@
-//! The clocks of timers, which go on from scan to scan whether or not their timer is called.
+//! Clocks of timers, which advance from scan to scan whether or not their timer is called.
 
 use super::Lowering;
 use crate::flat::narrow::Timer;
@@ -7,9 +7,9 @@ use crate::semantics::{CLOCK, Condition, Kind, PouId, RUNNING, Section, Shape, T
 use petril_base::source::Span;
 
 impl Lowering<'_> {
-    /// At the beginning of every scan each running clock advances by the scan time, until it has reached the greatest preset
-    /// time it can be given; where that is not known, the one it has.
-    /// Says whether there are any.
+    /// Emits the lines that advance each running clock by the scan time at the beginning of every scan, until it has
+    /// reached the greatest preset time it can be given; where that is not known, its present one. Returns whether
+    /// there are timers.
     pub fn ticks(&mut self) -> bool {
         let entry = self.pou(self.program.entry);
         let mut first = 0;
@@ -69,7 +69,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The line that compares the clock.
+    /// Emits the lines that advance one clock; returns the line that compares it with its preset time.
     fn tick(&mut self, timer: Timer, running: VarId, span: Span) -> usize {
         let stands = self.label();
         self.load_variable(Type::BOOL, running, span);

@@ -14,7 +14,7 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
 impl Typing<'_> {
-    /// `CAL`, `CALC`, `CALCN`.
+    /// Types a `CAL`, `CALC` or `CALCN`.
     pub fn call(&mut self, condition: Condition, callee: &Path, arguments: &Arguments, span: Span) -> Option<Action> {
         let (id, place) = self.instance(callee)?;
         let mut call = self.empty(condition, Callee::Instance(id, place));
@@ -29,7 +29,7 @@ impl Typing<'_> {
         Call { condition, callee, result_to: None, inputs, in_outs, outputs, enable, before_eno: 0 }
     }
 
-    /// An instance that is called. `None` has been reported.
+    /// Resolves the instance of a call. `None` has been reported.
     fn instance(&mut self, path: &Path) -> Option<(PouId, Place)> {
         if let Some(name) = path.plain()
             && self.context.project.variable(self.context.id, &name.text).is_none()
@@ -58,7 +58,7 @@ impl Typing<'_> {
         }
     }
 
-    /// `S1 x`, `CLK x`, …: the current result becomes an input, and the instance is called.
+    /// Types `S1 x`, `CLK x`, …: the current result becomes an input, and the instance is called.
     pub fn input_operator(&mut self, operator: Operator, path: &Path, span: Span, result: TypeId) -> Option<Action> {
         let (id, place) = self.instance(path)?;
         let word = operator.verb.word();
@@ -82,7 +82,7 @@ impl Typing<'_> {
         Some(Action::Call(Box::new(call)))
     }
 
-    /// A function called by its name: one of the file, or a standard one.
+    /// Types the call of a function by its name: one of the file, or a standard one.
     pub fn function(
         &mut self,
         name: &Name,
@@ -111,7 +111,7 @@ impl Typing<'_> {
         }
     }
 
-    /// The type of what a function returns.
+    /// Type of the result of a function.
     fn result_of(&mut self, id: PouId, span: Span) -> TypeId {
         let symbols = self.context.project.symbols(id).list();
         let result = symbols.iter().find(|symbol| symbol.section == Section::Result);
@@ -167,7 +167,7 @@ impl Typing<'_> {
         Some(Action::Call(Box::new(call)))
     }
 
-    /// Arguments to the variables of a unit; positional ones begin with the input of position `first`.
+    /// Assigns arguments to the variables of a unit; positional ones begin with the input at position `first`.
     fn arguments(&mut self, id: PouId, arguments: &[Argument], first: usize, call: &mut Call) {
         let context = self.context;
         let symbols = context.project.symbols(id);
@@ -286,7 +286,7 @@ impl Typing<'_> {
         Some(())
     }
 
-    /// An input that is one value.
+    /// Scalar of an input; reports an input that is not an elementary value.
     fn whole(&mut self, symbol: &Symbol, name: &str, at: Span) -> Option<crate::semantics::shape::Scalar> {
         let shape = symbol.shape.as_ref()?;
         if shape.scalar().is_none() {
@@ -304,7 +304,7 @@ impl Typing<'_> {
         });
     }
 
-    /// What an input is given: an operand, or the result of a list. `None` has been reported.
+    /// Value for an input: an operand, or the result of a list. `None` has been reported.
     pub fn given(&mut self, value: &ast::Feed, span: Span) -> Option<Feed> {
         match value {
             ast::Feed::Operand(operand) => self.feed(operand),
@@ -316,7 +316,7 @@ impl Typing<'_> {
         }
     }
 
-    /// `EN := …` and `ENO => …`, which every unit has.
+    /// Types `EN := …` and `ENO => …`, which every unit has; returns whether the argument is one of these.
     pub fn enable(&mut self, argument: &Argument, name: &str, enable: &mut Enable) -> bool {
         match argument {
             Argument::Input { name: Name { span: argument_span, .. }, value } if name.eq_ignore_ascii_case("EN") => {
@@ -339,13 +339,13 @@ impl Typing<'_> {
         }
     }
 
-    /// In-out variables stand for variables of the caller, so each needs one.
+    /// Reports missing in-out variables: each stands for a variable of the caller.
     fn check_in_outs(&mut self, id: PouId, call: &Call, span: Span) {
         let symbols = self.context.project.symbols(id).list();
         for (position, symbol) in symbols.iter().enumerate().filter(|(_, symbol)| symbol.section == Section::InOut) {
             if !call.in_outs.iter().any(|(given, _)| *given == position) {
                 let block = &self.context.project.pou(id).name.text;
-                // What is wrong with this very call has been reported just now.
+                // Diagnostics of this very call are the latest ones.
                 let mut latest = self.diagnostics.iter().rev().take(100);
                 let known = latest.any(|d| d.span().start >= span.start && d.span().end <= span.end);
                 if !known {
@@ -367,7 +367,7 @@ fn inputs_of(symbols: &[Symbol]) -> impl Iterator<Item = &Symbol> {
     symbols.iter().filter(|symbol| symbol.section == Section::Input)
 }
 
-/// What may be given by position: inputs and in-out variables, in the order of declaration.
+/// Parameters that may be given by position: inputs and in-out variables, in the order of declaration.
 fn positional(symbols: &[Symbol]) -> impl Iterator<Item = (usize, &Symbol)> {
     symbols.iter().enumerate().filter(|(_, symbol)| matches!(symbol.section, Section::Input | Section::InOut))
 }

@@ -1,4 +1,4 @@
-//! From the syntax tree of a unit to typed statements: every name resolved, every type settled.
+//! Typing of a unit, from its syntax tree to typed statements: every name resolved, every type settled.
 
 mod calls;
 mod operators;
@@ -24,7 +24,7 @@ use petril_base::Type;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A typed instruction list.
+/// Typed instruction list.
 pub struct Typed {
     pub body: Vec<Statement>,
     pub types: Vec<Type>,
@@ -54,16 +54,17 @@ struct Typing<'a> {
     context: &'a Context<'a>,
     types: Inference,
     diagnostics: Vec<Diagnostic>,
-    /// Names that are not declared: the first use, and how many there are.
+    /// Undeclared names: the first use, and the number of uses.
     unknown: BTreeMap<String, (Name, usize)>,
-    /// Labels that stand alone vanish: instruction i of the text is statement `positions[i]`.
+    /// Positions of statements: instruction i of the text is statement `positions[i]`, since labels that stand alone
+    /// are dropped.
     positions: Vec<usize>,
-    /// How many instructions begin with a word nobody knows.
+    /// Number of instructions that begin with an unknown word.
     unknown_words: usize,
 }
 
 impl Typing<'_> {
-    /// The unit's instruction list.
+    /// Types the unit's instruction list.
     fn list(&mut self) -> Vec<Statement> {
         let body: &[Instruction] = &self.context.pou.body;
         let Flow { graph, effects, reachable, needed } = self.context.flow();
@@ -77,7 +78,7 @@ impl Typing<'_> {
         let mut after = Vec::with_capacity(body.len());
         let mut statements = Vec::with_capacity(kept);
         for (i, instruction) in body.iter().enumerate() {
-            // What comes from the line above is known before the line is looked at, so that the line gets the blame.
+            // The type from the line above is unified first, so that this line is the one reported.
             if i > 0 && needed[i] && graph.contains_edge(NodeIndex::new(i - 1), NodeIndex::new(i)) && reachable[i - 1] {
                 let _ = self.types.unify(after[i - 1], before[i]);
             }
@@ -98,7 +99,7 @@ impl Typing<'_> {
         statements
     }
 
-    /// Control comes with a result of one type to an instruction that has one of another.
+    /// Unifies the types of the current result where control comes from another line; reports a difference.
     fn join(&mut self, from: TypeId, to: TypeId, source: &Instruction, target: &Instruction) {
         if let Err(known) = self.types.unify(to, from) {
             let (there, here) = *known;
@@ -114,7 +115,7 @@ impl Typing<'_> {
         }
     }
 
-    /// An instruction that finds a result of this type, and the type of the result it leaves.
+    /// Types an instruction: `result` is the type of the current result before it; returns the one after it, too.
     fn instruction(&mut self, instruction: &Instruction, result: TypeId) -> (Option<Action>, TypeId) {
         match &instruction.operation {
             None | Some(Operation::Broken) => (None, self.types.fresh()),
@@ -141,7 +142,7 @@ impl Typing<'_> {
         }
     }
 
-    /// A condition is `BOOL`.
+    /// Requires that a condition be `BOOL`.
     fn condition(&mut self, condition: Condition, result: TypeId, span: Span) {
         if condition != Condition::Always {
             let boolean = self.types.boolean(NOWHERE);
@@ -151,7 +152,7 @@ impl Typing<'_> {
         }
     }
 
-    /// A sequence without jumps, like the inside of a parenthesis.
+    /// Types a sequence without jumps, like the inside of a parenthesis.
     fn sequence(&mut self, body: &[Instruction], result: TypeId) -> (Vec<Statement>, TypeId) {
         let mut result = result;
         let mut statements = Vec::new();
@@ -165,7 +166,7 @@ impl Typing<'_> {
         (statements, result)
     }
 
-    /// Makes the type of the current result the same as another; if it cannot be, says so.
+    /// Unifies the type of the current result with another; reports a difference.
     fn same(&mut self, result: TypeId, other: TypeId, span: Span, message: impl Fn(&Known) -> String) {
         if let Err(known) = self.types.unify(result, other) {
             let (left, right) = *known;
@@ -182,7 +183,7 @@ impl Typing<'_> {
         }
     }
 
-    /// An operand to read, with its type. `None` has been reported.
+    /// Types an operand that is read. `None` has been reported.
     fn operand(&mut self, operand: &ast::Operand) -> Option<(TypeId, Operand)> {
         match operand {
             ast::Operand::Constant(constant) => {
@@ -206,7 +207,7 @@ impl Typing<'_> {
         }
     }
 
-    /// An operand that is handed over.
+    /// Types an operand that is passed to an input.
     fn feed(&mut self, operand: &ast::Operand) -> Option<Feed> {
         let span = operand.span();
         let (ty, operand) = self.operand(operand)?;
@@ -214,7 +215,7 @@ impl Typing<'_> {
     }
 }
 
-/// How to get from one type to the other, if there is a function for that.
+/// Help on how to convert one type to the other, if a function does that.
 fn conversion(left: &Known, right: &Known) -> Option<String> {
     let plain = left.scalar.enumeration.is_none() && right.scalar.enumeration.is_none();
     let (from, to) = (right.scalar.ty, left.scalar.ty);
@@ -224,7 +225,7 @@ fn conversion(left: &Known, right: &Known) -> Option<String> {
     })
 }
 
-/// Names that are not declared, each reported at its first use.
+/// Reports undeclared names, each at its first use.
 fn undeclared(unknown: BTreeMap<String, (Name, usize)>, context: &Context<'_>) -> Vec<Diagnostic> {
     let mut firsts: Vec<(Name, usize)> = unknown.into_values().collect();
     firsts.sort_by_key(|(name, _)| name.span);

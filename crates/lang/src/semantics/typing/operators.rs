@@ -1,4 +1,4 @@
-//! Operators with their operands.
+//! Typing of operators with their operands.
 
 use super::Typing;
 use crate::semantics::effect::block;
@@ -97,7 +97,7 @@ impl Typing<'_> {
         }
     }
 
-    /// The demands of an operator on its two sides, and the type of its value.
+    /// Adds the constraints of an operator on its two sides; returns the type of its value.
     fn combine(
         &mut self,
         function: Function,
@@ -118,7 +118,7 @@ impl Typing<'_> {
         if function.compares() { self.types.boolean(span) } else { result }
     }
 
-    /// What a function asks of the type of its operands.
+    /// Adds the constraint of a function on the type of its operands.
     pub fn demand(&mut self, function: Function, ty: TypeId, span: Span, word: &str) {
         let class = match function {
             Function::Add | Function::Sub => Class::Magnitudes,
@@ -181,7 +181,7 @@ impl Typing<'_> {
     }
 }
 
-/// The function of an operator that combines.
+/// Function of an operator that combines.
 pub fn function(verb: Verb) -> Option<Function> {
     Some(match verb {
         Verb::And => Function::And,

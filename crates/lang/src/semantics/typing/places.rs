@@ -1,4 +1,4 @@
-//! Paths like `pump.T.Q` and `level[i]` to places.
+//! Resolution of paths like `pump.T.Q` and `level[i]` to places.
 
 use super::Typing;
 use crate::semantics::address;
@@ -11,17 +11,17 @@ use petril_base::Kind;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// What a path is used for.
+/// Use of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     Read,
     Write,
-    /// It stands for a variable of a function block.
+    /// Bound to an in-out variable.
     Bind,
 }
 
 impl Typing<'_> {
-    /// An elementary variable, or a value of an enumeration, to be read.
+    /// Resolves an elementary variable, or a value of an enumeration, to be read.
     pub fn readable(&mut self, path: &Path) -> Option<(TypeId, Operand)> {
         let context = self.context;
         let is_variable = context.project.variable(context.id, &path.root.text).is_some();
@@ -48,7 +48,7 @@ impl Typing<'_> {
         Some((ty, Operand::Place(place)))
     }
 
-    /// An elementary variable to be written.
+    /// Resolves an elementary variable to be written.
     pub fn writable(&mut self, operand: &ast::Operand, operator: &str) -> Option<(TypeId, Place)> {
         let path = match operand {
             ast::Operand::Variable(path) => path,
@@ -63,7 +63,7 @@ impl Typing<'_> {
         Some((ty, place))
     }
 
-    /// The type of an elementary place; others cannot be loaded or stored.
+    /// Type of an elementary place; reports others, which cannot be loaded or stored.
     pub fn elementary(&mut self, place: &Place, path: &Path) -> Option<TypeId> {
         let what = match &place.shape {
             Shape::Scalar(scalar) => return Some(self.types.of(scalar, place.span)),
@@ -95,7 +95,7 @@ impl Typing<'_> {
         symbols.filter(|symbol| symbol.section == Section::Output).map(|symbol| symbol.name.clone()).collect()
     }
 
-    /// What a path leads to. `None` has been reported.
+    /// Resolves a path to a place. `None` has been reported.
     pub fn place(&mut self, path: &Path, used: Use) -> Option<Place> {
         let context = self.context;
         let Some((section, position, symbol)) = context.project.variable(context.id, &path.root.text) else {
@@ -106,7 +106,7 @@ impl Typing<'_> {
             Section::External(global) => Root::Global(global),
             _ => Root::Own(position),
         };
-        // Of a broken declaration nothing can be said.
+        // A broken declaration has no shape, and has been reported.
         let mut shape = symbol.shape.clone()?;
         let mut steps = Vec::new();
         let mut so_far = path.root.text.clone();
@@ -257,7 +257,7 @@ impl Typing<'_> {
         }
     }
 
-    /// Elements chosen by variables must lie at equal distances, so that one number can choose among them.
+    /// Checks that elements selected by variables lie at equal distances, so that one number can select them.
     fn regular(&mut self, place: &Place, path: &Path) -> Option<()> {
         let is_variable = |step: &Step| matches!(step, Step::Index(indices) if indices.iter().any(|i| matches!(i, Index::Variable(_))));
         let variable: Vec<usize> = (0..place.steps.len()).filter(|&i| is_variable(&place.steps[i])).collect();

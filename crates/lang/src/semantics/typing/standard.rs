@@ -1,4 +1,4 @@
-//! Calls of standard functions (2.5.1.5), which take values of many types.
+//! Typing of calls of standard functions (2.5.1.5), which take values of many types.
 
 use super::Typing;
 use super::calls::plural;
@@ -13,15 +13,15 @@ use petril_base::Type;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A standard function: what it does, and the names of its inputs. The last name is repeated with a number behind it if
-/// `many`.
+/// Signature of a standard function: the function and the names of its inputs. The last name is repeated with a number
+/// after it if `many`.
 struct Signature {
     function: StandardFunction,
     inputs: &'static [&'static str],
     many: bool,
 }
 
-/// Functions whose values are of types that are not modelled, or that need such.
+/// Standard functions with values or arguments of types that are not modelled.
 const UNSUPPORTED: [&str; 29] = [
     "SQRT",
     "LN",
@@ -104,7 +104,7 @@ impl Typing<'_> {
         (Some(Action::Standard(Box::new(standard))), value)
     }
 
-    /// The arguments in the order of the function's inputs. `None` has been reported.
+    /// Arguments in the order of the function's inputs. `None` has been reported.
     fn standard_arguments(
         &mut self,
         name: &Name,
@@ -119,7 +119,7 @@ impl Typing<'_> {
             feeds.push(Some(Feed { ty: result, source: FeedSource::Result, span }));
         }
         let errors = self.diagnostics.len();
-        // Names that are not declared are reported later.
+        // Undeclared names are reported later.
         let mut broken = false;
         for argument in &arguments.list {
             match argument {
@@ -186,7 +186,7 @@ impl Typing<'_> {
         );
     }
 
-    /// What a function asks of the types of its arguments, and the type of its value.
+    /// Adds the constraints of a function on the types of its arguments; returns the type of its value.
     fn demands(&mut self, name: &Name, function: StandardFunction, feeds: &[Feed], span: Span) -> TypeId {
         let alike = |typing: &mut Self, feeds: &[Feed]| {
             for feed in feeds.iter().skip(1) {
@@ -266,7 +266,7 @@ impl Typing<'_> {
     }
 }
 
-/// The words an instruction can begin with.
+/// Words that an instruction can begin with.
 const WORDS: [&str; 41] = [
     "LD", "LDN", "ST", "STN", "S", "R", "NOT", "AND", "ANDN", "OR", "ORN", "XOR", "XORN", "&", "ADD", "SUB", "MUL",
     "DIV", "MOD", "GT", "GE", "EQ", "NE", "LE", "LT", "JMP", "JMPC", "JMPCN", "RET", "RETC", "RETCN", "CAL", "CALC",
@@ -278,7 +278,7 @@ pub fn is_standard(word: &str) -> bool {
     conversion(word).is_some() || signature(word).is_some()
 }
 
-/// The input of a formal call, by its position.
+/// Position of an input of a formal call, by its name.
 fn position(name: &str, signature: &Signature) -> Option<usize> {
     if let Some(position) = signature.inputs.iter().position(|input| *input == name) {
         return Some(position);
@@ -321,13 +321,13 @@ fn signature(word: &str) -> Option<Signature> {
     }
 }
 
-/// The types of a conversion function's name, like `INT_TO_BYTE`.
+/// Types in a conversion function's name, like `INT_TO_BYTE`.
 fn conversion(word: &str) -> Option<(Type, Type)> {
     let (from, to) = word.split_once("_TO_")?;
     Some((Type::named(from)?, Type::named(to)?))
 }
 
-/// A conversion from or to a type that is not modelled, like `INT_TO_REAL`.
+/// Whether a word is a conversion from or to a type that is not modelled, like `INT_TO_REAL`.
 fn names_unsupported_type(word: &str) -> bool {
     const TYPES: [&str; 10] = ["REAL", "LREAL", "STRING", "WSTRING", "DATE", "TOD", "DT", "BCD", "LTIME", "DINT"];
     let known = |name: &str| TYPES.contains(&name) || Type::named(name).is_some();

@@ -1,4 +1,4 @@
-//! What is accepted and what is refused, one small program each.
+//! Accepted and refused programs, each small.
 
 use crate::semantics::testing::findings;
 use petril_base::diagnostic::Code::{self, *};
@@ -18,12 +18,12 @@ VAR b, c : BOOL; n, m : INT; d : DINT; s : SINT; u : UINT; w, v : WORD; y : BYTE
     timer : TON; up : CTU; latch : SR; edge : R_TRIG; tally : count; END_VAR
 ";
 
-/// The line of a body's first instruction.
+/// Line of a body's first instruction.
 fn first_line() -> usize {
     AROUND.lines().count() + 1
 }
 
-/// The errors in a body of the program above: codes, and lines counted from 1.
+/// Errors in a body of the program above: codes, and lines counted from 1.
 fn errors(body: &str) -> Vec<(Code, usize)> {
     let found = findings(&format!("{AROUND}{}\nEND_PROGRAM", body.replace("; ", "\n")));
     let errors = found.into_iter().filter(|(code, _)| code.id().starts_with('E'));
@@ -269,7 +269,7 @@ fn calls_are_written_out_to_a_size() {
     assert_eq!(errors.iter().filter(|&&code| code == ProgramTooLarge).count(), 1, "{errors:?}");
 }
 
-/// Nothing says of which type a literal is, and operators of other types would give other values.
+/// Literals without a type, where operators of other types would give other values.
 #[test]
 fn literals_whose_type_makes_a_difference() {
     let doubts = |body: &str| {
@@ -290,7 +290,7 @@ fn literals_whose_type_makes_a_difference() {
         assert_eq!(doubts(body), 1, "{body}");
     }
     for body in [
-        // A type is said somewhere.
+        // Some operand has a type.
         "LD 1; SHL 8; ST w",
         "LD 1; SHL n; AND w; NE 0; ST b",
         "LD 1; ADD n; ST n",
@@ -309,7 +309,7 @@ fn literals_whose_type_makes_a_difference() {
     }
 }
 
-/// Files that are right, with nothing to be said about them.
+/// Correct files without any diagnostic.
 #[test]
 fn files_without_a_doubt() {
     let files = [
@@ -318,14 +318,14 @@ fn files_without_a_doubt() {
          FUNCTION_BLOCK late VAR_INPUT by : INT; END_VAR VAR sum : INT; END_VAR\nLD sum\nADD by\nST sum\nEND_FUNCTION_BLOCK",
         // A global constant stays known beside constants of the unit.
         "VAR_GLOBAL CONSTANT g : INT := 3; END_VAR\nPROGRAM p VAR CONSTANT k : INT := 1; END_VAR VAR a : ARRAY [k..g] OF INT; END_VAR\nLD 1\nST a[1]\nEND_PROGRAM",
-        // What is handed over to an in-out variable is written there.
+        // A variable passed to an in-out variable is written by the callee.
         "FUNCTION_BLOCK f VAR_IN_OUT v : INT; END_VAR\nLD v\nADD 1\nST v\nEND_FUNCTION_BLOCK
          PROGRAM p VAR x : f; n : INT; m : INT; END_VAR\nCAL x(v := n)\nCAL x(m)\nLD n\nST m\nEND_PROGRAM",
         // A type of the file hides a function block of the library.
         "TYPE TP : (A, B); END_TYPE\nPROGRAM p VAR x : TP; END_VAR\nLD A\nST x\nEND_PROGRAM",
         // Instances in arrays.
         "PROGRAM p VAR t : ARRAY [1..2] OF TON; END_VAR VAR_INPUT i : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nCAL t[1](IN := i, PT := T#1s)\nLD t[1].Q\nST q\nEND_PROGRAM",
-        // What a list in a call uses, in parentheses too, is used; addresses in it need no declaration.
+        // Variables used in a list in a call, in parentheses too, count as used; addresses in it need no declaration.
         "PROGRAM p VAR_INPUT i, j, k : BOOL; END_VAR VAR x : SR; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nCAL x(S1 := (\nLD %IX0.0\nAND( i\nOR( j\nAND %IX0.1\n)\n)\n), R := k)\nLD x.Q1\nST q\nEND_PROGRAM",
         // A label and a variable may share a name.
         "PROGRAM p VAR_INPUT i : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD i\nJMPC i\nST q\ni:\nEND_PROGRAM",

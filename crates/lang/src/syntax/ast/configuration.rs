@@ -1,34 +1,34 @@
-//! Configurations (B.1.7): what runs how often.
+//! Configurations (B.1.7): tasks and the programs they run.
 
 use super::{Constant, Name};
 
-/// `CONFIGURATION … END_CONFIGURATION` with its resources taken together.
+/// `CONFIGURATION … END_CONFIGURATION`, all its resources taken together.
 #[derive(Clone, Debug)]
 pub struct Configuration {
-    /// Its name.
+    /// Name of the configuration.
     pub name: Name,
-    /// Its tasks.
+    /// Tasks of all resources.
     pub tasks: Vec<Task>,
-    /// What its tasks run.
+    /// Program instances, with or without a task.
     pub programs: Vec<ProgramInstance>,
 }
 
 /// `TASK name (INTERVAL := T#20ms, PRIORITY := 1);`
 #[derive(Clone, Debug)]
 pub struct Task {
-    /// Its name.
+    /// Name of the task.
     pub name: Name,
-    /// The literal behind `INTERVAL :=`.
+    /// Literal after `INTERVAL :=`.
     pub interval: Option<Constant>,
 }
 
 /// `PROGRAM name WITH task : type;`
 #[derive(Clone, Debug)]
 pub struct ProgramInstance {
-    /// Its name.
+    /// Name of the instance.
     pub name: Name,
-    /// The task that runs it.
+    /// Task that runs the instance.
     pub task: Option<Name>,
-    /// The program it is an instance of.
+    /// Program type.
     pub program: Name,
 }

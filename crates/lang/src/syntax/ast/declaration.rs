@@ -5,7 +5,7 @@ use std::fmt;
 use super::{Constant, Name, Path};
 use petril_base::source::Span;
 
-/// The kinds of declaration block (B.1.4.3, B.1.5).
+/// Kinds of declaration block (B.1.4.3, B.1.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VarKind {
     /// `VAR`
@@ -41,22 +41,22 @@ impl fmt::Display for VarKind {
     }
 }
 
-/// One block from `VAR…` to `END_VAR`.
+/// Declaration block, from `VAR…` to `END_VAR`.
 #[derive(Clone, Debug)]
 pub struct VarBlock {
-    /// Which kind of variables it declares.
+    /// Kind of the declared variables.
     pub kind: VarKind,
-    /// `CONSTANT` was written.
+    /// Whether `CONSTANT` was written.
     pub constant: bool,
     /// `RETAIN`, `NON_RETAIN` or `PERSISTENT`, as written.
     pub retain: Option<Name>,
-    /// Its declarations.
+    /// Declarations in the order of the text.
     pub declarations: Vec<Declaration>,
-    /// Where its first word stands.
+    /// Span of the first word.
     pub span: Span,
 }
 
-/// One declaration: `a, b : BOOL := TRUE;`.
+/// Declaration: `a, b : BOOL := TRUE;`.
 #[derive(Clone, Debug)]
 pub struct Declaration {
     /// The declared names.
@@ -65,7 +65,7 @@ pub struct Declaration {
     pub location: Option<Name>,
     /// The type; `None` if the declaration could not be read, which has been reported.
     pub spec: Option<TypeSpec>,
-    /// `R_EDGE` or `F_EDGE` behind the type.
+    /// `R_EDGE` or `F_EDGE` after the type.
     pub edge: Option<Name>,
     /// The initial value.
     pub initial: Option<Initial>,
@@ -74,48 +74,48 @@ pub struct Declaration {
 /// `TYPE name : spec := initial; END_TYPE`
 #[derive(Clone, Debug)]
 pub struct TypeDeclaration {
-    /// Its name.
+    /// Name of the type.
     pub name: Name,
-    /// What it stands for; `None` if it could not be read, which has been reported.
+    /// Type that the name stands for; `None` if it could not be read, which has been reported.
     pub spec: Option<TypeSpec>,
     /// The initial value of variables of the type.
     pub initial: Option<Initial>,
 }
 
-/// A type where a variable or type is declared.
+/// Type in the declaration of a variable or type.
 #[derive(Clone, Debug)]
 pub enum TypeSpec {
     /// `INT`, `TON`, `STRING[20]`: a name, or the text of a type that has none.
     Named(Name),
     /// `INT (0..100)`
     Subrange {
-        /// The type it is part of.
+        /// Type that the subrange is part of.
         base: Name,
-        /// Its least and greatest value.
+        /// Least and greatest value.
         range: Range,
     },
     /// `(Idle, Filling, Done)`
     Enumeration(Vec<Name>),
     /// `ARRAY [0..9, 1..3] OF INT`
     Array {
-        /// One range for each dimension.
+        /// Index ranges, one for each dimension.
         ranges: Vec<Range>,
         /// The type of the elements.
         of: Box<TypeSpec>,
-        /// The whole.
+        /// Span of the whole type.
         span: Span,
     },
     /// `STRUCT … END_STRUCT`
     Structure {
         /// The members.
         members: Vec<Declaration>,
-        /// Where its first word stands.
+        /// Span of the first word.
         span: Span,
     },
 }
 
 impl TypeSpec {
-    /// Where it stands.
+    /// Span of the type in the text.
     #[must_use]
     pub fn span(&self) -> Span {
         match self {
@@ -135,23 +135,23 @@ pub struct Range {
     pub upper: Name,
 }
 
-/// An initial value.
+/// Initial value.
 #[derive(Clone, Debug)]
 pub struct Initial {
-    /// What is given.
+    /// Form and parts of the value.
     pub kind: InitialKind,
-    /// Where it stands.
+    /// Span in the text.
     pub span: Span,
 }
 
-/// The forms of an initial value.
+/// Forms of an initial value.
 #[derive(Clone, Debug)]
 pub enum InitialKind {
     /// A literal.
     Constant(Constant),
     /// An enumerated value or the name of a constant.
     Name(Path),
-    /// `[1, 2, 3(0)]`: values with how often each comes.
+    /// `[1, 2, 3(0)]`: values, each with its repetition count.
     List(Vec<(u64, Initial)>),
     /// `(a := 1, b := 2)`
     Structure(Vec<(Name, Initial)>),

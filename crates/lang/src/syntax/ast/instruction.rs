@@ -5,19 +5,19 @@ use std::fmt;
 use super::{Constant, Name, Operator};
 use petril_base::source::Span;
 
-/// One instruction, or a label that stands alone.
+/// Instruction, or a label that stands alone.
 #[derive(Clone, Debug)]
 pub struct Instruction {
-    /// The label before it.
+    /// Label before the instruction.
     pub label: Option<Name>,
-    /// What it does; `None` for a label that stands alone.
+    /// Operation; `None` for a label that stands alone.
     pub operation: Option<Operation>,
-    /// The whole instruction; for a parenthesis its first line.
+    /// Span of the whole instruction; for a parenthesis of its first line.
     pub span: Span,
 }
 
 impl Instruction {
-    /// The lists inside it, in the order of the text: that of a parenthesis, or those that give inputs of a call their values.
+    /// Nested lists, in the order of the text: the body of a parenthesis, or the lists that compute inputs of a call.
     #[must_use]
     pub fn lists(&self) -> Vec<&[Instruction]> {
         match &self.operation {
@@ -34,7 +34,8 @@ impl Instruction {
     }
 }
 
-/// The instructions of a list and of all lists in it, in the order of the text, each with its nesting depth.
+/// Iterator over the instructions of a list and of all lists in it, in the order of the text, each with its nesting
+/// depth.
 pub fn with_nested(body: &[Instruction]) -> impl Iterator<Item = (&Instruction, usize)> {
     let mut open = vec![(body.iter(), 0)];
     std::iter::from_fn(move || {
@@ -50,60 +51,60 @@ pub fn with_nested(body: &[Instruction]) -> impl Iterator<Item = (&Instruction, 
     })
 }
 
-/// What an instruction does (B.2.1).
+/// Operation of an instruction (B.2.1).
 #[derive(Clone, Debug)]
 pub enum Operation {
-    /// An operator with its operands. One is the rule; the static rules look after the others.
+    /// Operator with its operands. Usually there is one; the static rules check the number.
     Simple {
         /// The operator.
         operator: Operator,
-        /// What stands behind it.
+        /// Operands after the operator.
         operands: Vec<Operand>,
     },
     /// `AND( operand … )`: the operator waits for the value of the parenthesis.
     Parenthesis {
         /// The deferred operator.
         operator: Operator,
-        /// The operand behind the opening parenthesis, loaded first.
+        /// Operand after the opening parenthesis, loaded first.
         first: Option<Operand>,
-        /// The instructions inside.
+        /// Instructions inside the parenthesis.
         body: Vec<Instruction>,
-        /// The closing parenthesis.
+        /// Span of the closing parenthesis.
         close: Span,
     },
     /// `JMP`, `JMPC`, `JMPCN`.
     Jump {
-        /// When it jumps.
+        /// Condition of the jump.
         condition: Condition,
-        /// Where to.
+        /// Label jumped to.
         target: Name,
     },
     /// `RET`, `RETC`, `RETCN`.
     Return {
-        /// When it returns.
+        /// Condition of the return.
         condition: Condition,
     },
     /// `CAL`, `CALC`, `CALCN` of a function block instance.
     Call {
-        /// When it calls.
+        /// Condition of the call.
         condition: Condition,
-        /// The instance.
+        /// Instance called.
         callee: Path,
-        /// What is handed over.
+        /// Arguments of the call.
         arguments: Arguments,
     },
-    /// A function called by its name, or a first word nobody knows.
+    /// Function called by its name, or an unknown first word.
     Function {
         /// The first word.
         name: Name,
-        /// What is handed over.
+        /// Arguments of the call.
         arguments: Arguments,
     },
-    /// A line that could not be read, which has been reported. It keeps the rules from reporting what follows from that.
+    /// Line that could not be read, which has been reported. Keeps the static rules from reporting consequences.
     Broken,
 }
 
-/// When a jump or return is taken: always, if the current result is TRUE (C), or if it is FALSE (CN).
+/// Condition of a jump, return or call: always, if the current result is TRUE (C), or if it is FALSE (CN).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
     /// No modifier.
@@ -115,7 +116,7 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// The modifier as it is written behind the operator.
+    /// Modifier as written after the operator.
     #[must_use]
     pub fn suffix(self) -> &'static str {
         match self {
@@ -126,7 +127,7 @@ impl Condition {
     }
 }
 
-/// An operand: a literal or a variable.
+/// Operand: a literal or a variable.
 #[derive(Clone, Debug)]
 pub enum Operand {
     /// A literal.
@@ -136,7 +137,7 @@ pub enum Operand {
 }
 
 impl Operand {
-    /// Where it stands.
+    /// Span of the operand in the text.
     #[must_use]
     pub fn span(&self) -> Span {
         match self {
@@ -146,19 +147,19 @@ impl Operand {
     }
 }
 
-/// A variable or a part of one: `x`, `timer.Q`, `level[3]`, `%IX0.0`.
+/// Variable or a part of one: `x`, `timer.Q`, `level[3]`, `%IX0.0`.
 #[derive(Clone, Debug)]
 pub struct Path {
     /// The first name, or a directly represented variable.
     pub root: Name,
-    /// Members and indices behind it.
+    /// Members and indices after the root.
     pub parts: Vec<Part>,
-    /// The whole.
+    /// Span of the whole path.
     pub span: Span,
 }
 
 impl Path {
-    /// The name, if that is all of it.
+    /// Name of the variable, if the path has no members or indices.
     #[must_use]
     pub fn plain(&self) -> Option<&Name> {
         self.parts.is_empty().then_some(&self.root)
@@ -178,16 +179,16 @@ impl fmt::Display for Path {
     }
 }
 
-/// A step from a variable to a part of it.
+/// Step of a path, from a variable to a part of it.
 #[derive(Clone, Debug)]
 pub enum Part {
     /// `.Q`
     Member(Name),
-    /// `[3, i]`, and where it stands.
+    /// `[3, i]`, with its span.
     Index(Vec<Subscript>, Span),
 }
 
-/// One index.
+/// Index of an array.
 #[derive(Clone, Debug)]
 pub enum Subscript {
     /// A literal.
@@ -205,44 +206,44 @@ impl fmt::Display for Subscript {
     }
 }
 
-/// What is handed over to a function or function block.
+/// Arguments of a call of a function or function block.
 #[derive(Clone, Debug, Default)]
 pub struct Arguments {
-    /// In the order of the text.
+    /// Arguments in the order of the text.
     pub list: Vec<Argument>,
-    /// Whether they stand in parentheses. Behind a function's name without parentheses, the current result comes before
-    /// them.
+    /// Whether the arguments stand in parentheses. After a function's name without parentheses, the current result is
+    /// the first input, before the arguments.
     pub enclosed: bool,
 }
 
-/// One of them.
+/// Argument of a call.
 #[derive(Clone, Debug)]
 pub enum Argument {
     /// `x`, at its position.
     Positional(Operand),
     /// `IN := x`
     Input {
-        /// The input.
+        /// Name of the input.
         name: Name,
-        /// Its value.
+        /// Value of the input.
         value: Feed,
     },
     /// `Q => x`, `NOT Q => x`
     Output {
-        /// `NOT` was written.
+        /// Whether `NOT` was written.
         negated: bool,
-        /// The output.
+        /// Name of the output.
         name: Name,
-        /// Where its value goes.
+        /// Variable that receives the output.
         target: Operand,
     },
 }
 
-/// The value of an input.
+/// Value of an input.
 #[derive(Clone, Debug)]
 pub enum Feed {
     /// An operand.
     Operand(Operand),
-    /// `( LD x … )`: the result of a list.
+    /// `( LD x … )`: the current result at the end of a list.
     List(Vec<Instruction>),
 }

@@ -5,11 +5,11 @@ use petril_base::source::Span;
 /// A literal as it was written.
 #[derive(Clone, Debug)]
 pub struct Constant {
-    /// As written.
+    /// Text as written.
     pub text: String,
-    /// What it means; `None` if it means nothing, like `16#FG` or `T#5x`.
+    /// Value; `None` if the text has none, like `16#FG` or `T#5x`.
     pub literal: Option<Literal>,
-    /// Where it stands.
+    /// Span in the text.
     pub span: Span,
 }
 
@@ -18,7 +18,7 @@ pub struct Constant {
 pub enum Literal {
     /// `TRUE`, `FALSE`
     Boolean(bool),
-    /// `5`, `16#FF`: a number of whatever type it is used with.
+    /// `5`, `16#FF`: a number whose type follows from its use.
     Integer(i128),
     /// `INT#5`, `BYTE#16#0F`, `BOOL#1`: the type's name as written.
     Typed(String, i128),
@@ -26,12 +26,12 @@ pub enum Literal {
     Time(i128),
     /// `Colour#Red`: the type's name and the value's.
     Enumerated(String, String),
-    /// Of a kind that is not modelled: what it is called.
+    /// Literal of a kind that is not modelled, with the name of the kind.
     Other(&'static str),
 }
 
 impl Literal {
-    /// The value of a literal's text.
+    /// Reads the text of a literal; `None` if it has no value.
     #[must_use]
     pub fn read(text: &str) -> Option<Self> {
         if text.starts_with(['\'', '"']) {
@@ -71,7 +71,7 @@ fn is_number(text: &str) -> bool {
     text.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// A number in upper case, with a sign or a base but no type.
+/// Reads a number in upper case, with a sign or a base but no type.
 fn number(text: &str) -> Option<Literal> {
     let (negative, digits) = match text.strip_prefix('-') {
         Some(digits) => (true, digits),
@@ -88,7 +88,7 @@ fn number(text: &str) -> Option<Literal> {
     }
 }
 
-/// Digits, where single `_` may stand between them. Larger than any type holds is still a number.
+/// Reads digits, where single `_` may stand between them. A number larger than any type holds is still a number.
 fn whole(digits: &str, base: u32) -> Option<i128> {
     let separated = digits.split('_').all(|group| !group.is_empty());
     let plain: String = digits.chars().filter(|&c| c != '_').collect();
@@ -96,7 +96,7 @@ fn whole(digits: &str, base: u32) -> Option<i128> {
     in_base.then(|| i128::from_str_radix(&plain, base).unwrap_or(i128::MAX >> 1))
 }
 
-/// A duration in upper case, like `1S500MS`, in microseconds.
+/// Reads a duration in upper case, like `1S500MS`, as microseconds.
 fn time(text: &str) -> Option<i128> {
     const UNITS: [(&str, i128); 6] =
         [("D", 86_400_000_000), ("H", 3_600_000_000), ("M", 60_000_000), ("S", 1_000_000), ("MS", 1000), ("US", 1)];

@@ -1,4 +1,4 @@
-//! The syntax tree: what the text says, before anything is known about its names.
+//! Syntax tree of a text, before names are resolved.
 
 mod configuration;
 mod declaration;
@@ -19,7 +19,8 @@ pub use operator::{Operator, Verb};
 pub use petril_base::key;
 use petril_base::source::Span;
 
-/// A file: its program organisation units and what stands around them, each in the order of the text (IEC 61131-3, B.1.5).
+/// Syntax tree of a file: its program organisation units and the declarations around them, each in the order of the
+/// text (IEC 61131-3, B.1.5).
 #[derive(Clone, Debug, Default)]
 pub struct Unit {
     /// Programs, functions and function blocks.
@@ -32,30 +33,30 @@ pub struct Unit {
     pub configurations: Vec<Configuration>,
 }
 
-/// A name as it was written. IL does not tell upper from lower case: compare [`Name::key`]s.
+/// Name as it was written. IL does not distinguish upper and lower case: compare [`Name::key`]s.
 #[derive(Clone, Debug)]
 pub struct Name {
     /// The name with the letters of the text.
     pub text: String,
-    /// Where it stands.
+    /// Span in the text.
     pub span: Span,
 }
 
 impl Name {
-    /// The name in the one spelling that all its spellings share.
+    /// Key of the name, equal for all its spellings.
     #[must_use]
     pub fn key(&self) -> String {
         key(&self.text)
     }
 
-    /// Whether it is this word, however it is spelt.
+    /// Whether the name is this word, in any case.
     #[must_use]
     pub fn is(&self, word: &str) -> bool {
         self.text.eq_ignore_ascii_case(word)
     }
 }
 
-/// The three kinds of program organisation unit (POU).
+/// Kinds of program organisation unit (POU).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PouKind {
     /// `PROGRAM`
@@ -76,12 +77,12 @@ impl fmt::Display for PouKind {
     }
 }
 
-/// A program organisation unit: declarations and an instruction list.
+/// Program organisation unit: declarations and an instruction list.
 #[derive(Clone, Debug)]
 pub struct Pou {
-    /// Program, function or function block.
+    /// Kind of the unit.
     pub kind: PouKind,
-    /// Its name.
+    /// Name of the unit.
     pub name: Name,
     /// Result type of a function.
     pub result: Option<Name>,
@@ -89,7 +90,7 @@ pub struct Pou {
     pub blocks: Vec<VarBlock>,
     /// The instruction list.
     pub body: Vec<Instruction>,
-    /// Where its body is in a language other than IL: the language, and where that shows. The language is empty where there
-    /// is no body at all.
+    /// Language of a body that is not in IL, and the span that shows it. The language is empty where there is no body
+    /// at all.
     pub foreign: Option<(String, Span)>,
 }

@@ -1,13 +1,13 @@
-//! The operators of edition 2, table 52.
+//! Operators of IL (edition 2, table 52).
 
 use std::fmt;
 
-/// An operator with its modifier N.
+/// Operator with its modifier N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Operator {
-    /// What it does.
+    /// Operator without modifier.
     pub verb: Verb,
-    /// The modifier N: the operand, the value of the parenthesis, or the stored value is complemented.
+    /// Modifier N: whether the operand, the value of the parenthesis, or the stored value is complemented.
     pub negated: bool,
 }
 
@@ -32,19 +32,19 @@ verbs! {
 }
 
 impl Verb {
-    /// The operator's word.
+    /// Word of the operator, without modifier.
     #[must_use]
     pub fn word(self) -> &'static str {
         Self::ALL[self as usize].1
     }
 
-    /// Whether it combines the current result with an operand, so that a parenthesis may follow it.
+    /// Whether the operator combines the current result with an operand, so that a parenthesis may follow it.
     #[must_use]
     pub fn combines(self) -> bool {
         self as usize >= Self::And as usize
     }
 
-    /// Whether it may be the name of a function block's input, which it stores the current result in.
+    /// Whether the operator may be the name of a function block's input, which it stores the current result in.
     #[must_use]
     pub fn is_block_input(self) -> bool {
         use Verb::{Cd, Clk, Cu, In, Pt, Pv, R, R1, S, S1};

@@ -9,7 +9,7 @@ use crate::syntax::ast::{Configuration, Name, ProgramInstance, Task, Unit};
 use crate::syntax::parse::Rule;
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// The pair of the rule `configuration`; its global variables are those of the file.
+/// Consumes a pair of the rule `configuration`; its global variables become those of the file.
 pub fn configuration(pair: Pair<'_, Rule>, unit: &mut Unit, diagnostics: &mut Vec<Diagnostic>) {
     let word = first_word(&pair);
     let mut configuration = Configuration { name: word.clone(), tasks: Vec::new(), programs: Vec::new() };

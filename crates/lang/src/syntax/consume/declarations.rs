@@ -12,7 +12,7 @@ use crate::syntax::parse::Rule;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// The pair of the rule `var_block`.
+/// Consumes a pair of the rule `var_block`.
 pub fn var_block(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> VarBlock {
     let mut block = VarBlock {
         kind: VarKind::Local,
@@ -62,7 +62,7 @@ pub fn var_block(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Var
     block
 }
 
-/// The pair of the rule `type_block`.
+/// Consumes a pair of the rule `type_block`.
 pub fn type_block(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Vec<TypeDeclaration> {
     let word = first_word(&pair);
     let mut types = Vec::new();
@@ -142,7 +142,7 @@ fn range(pair: Pair<'_, Rule>) -> Option<Range> {
     Some(Range { lower: bounds.next()?, upper: bounds.next()? })
 }
 
-/// The pair of the rule `initial`.
+/// Consumes a pair of the rule `initial`.
 pub fn initial(pair: Pair<'_, Rule>) -> Option<Initial> {
     let span = span(&pair);
     let piece = pair.into_inner().next()?;
@@ -155,7 +155,7 @@ pub fn initial(pair: Pair<'_, Rule>) -> Option<Initial> {
     Some(Initial { kind, span })
 }
 
-/// A value of a list, with how often it comes: `3`, `5(0)`, `5()`.
+/// Value of a list, with its repetition count: `3`, `5(0)`, `5()`.
 fn item(pair: Pair<'_, Rule>) -> Option<(u64, Initial)> {
     let mut pieces = pair.into_inner();
     let first = pieces.next()?;

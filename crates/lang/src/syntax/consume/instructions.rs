@@ -1,4 +1,5 @@
-//! Instruction lists: pieces to instructions, and the two ends of each parenthesis paired.
+//! Instruction lists: instructions from the pieces that the grammar reads, with the two ends of each parenthesis
+//! paired.
 
 use pest::iterators::Pair;
 
@@ -13,11 +14,11 @@ use crate::syntax::parse::Rule;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// Parentheses may be nested this deep. Real programs stay below ten; the limit keeps everything that walks the tree
-/// within its stack.
+/// Maximum nesting depth of parentheses. Real programs stay below ten; the limit keeps recursion over the tree within
+/// its stack.
 const MAX_DEPTH: usize = 200;
 
-/// The pair of the rule `body`: its instructions, and declaration blocks that stand between them.
+/// Consumes a pair of the rule `body`: its instructions, and declaration blocks that stand between them.
 pub fn body(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> (Vec<Instruction>, Vec<VarBlock>) {
     let mut list = ListBuilder::default();
     let mut blocks = Vec::new();
@@ -39,7 +40,7 @@ pub fn body(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> (Vec<Ins
     (list.finish(diagnostics), blocks)
 }
 
-/// A parenthesis that is still open.
+/// Parenthesis that is still open.
 struct Open {
     label: Option<Name>,
     operator: Operator,
@@ -49,12 +50,12 @@ struct Open {
     outer: Vec<Instruction>,
 }
 
-/// Builds the list with an explicit stack, so that nesting costs no recursion.
+/// Builder of a list with an explicit stack, so that nesting costs no recursion.
 #[derive(Default)]
 struct ListBuilder {
     current: Vec<Instruction>,
     open: Vec<Open>,
-    /// How many parentheses beyond [`MAX_DEPTH`] are open; they are counted, not kept.
+    /// Number of open parentheses beyond [`MAX_DEPTH`]; these are counted, not kept.
     too_deep: usize,
 }
 
@@ -100,7 +101,7 @@ impl ListBuilder {
         self.enter(open, diagnostics);
     }
 
-    /// Goes into a parenthesis, unless it is nested too deeply.
+    /// Opens a parenthesis, unless it is nested too deeply.
     fn enter(&mut self, mut open: Open, diagnostics: &mut Vec<Diagnostic>) {
         if self.open.len() < MAX_DEPTH {
             open.outer = std::mem::take(&mut self.current);
@@ -131,8 +132,8 @@ impl ListBuilder {
         }
     }
 
-    /// Reports a line that cannot be read. Parentheses that it leaves open, or closes, count all the same, so that their
-    /// other ends are not reported.
+    /// Reports a line that cannot be read. Parentheses that it leaves open, or closes, count all the same, so that
+    /// their other ends are not reported.
     fn bad_line(&mut self, pair: &Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) {
         let explained = expected::explain(Rule::lone_instruction, pair.as_str(), pair.as_span().start());
         let at = explained.span().start - pair.as_span().start();
@@ -156,7 +157,7 @@ impl ListBuilder {
     }
 
     fn finish(mut self, diagnostics: &mut Vec<Diagnostic>) -> Vec<Instruction> {
-        // Every open parenthesis is one error, but a reader learns nothing from the hundredth.
+        // Every open parenthesis is an error, but only the innermost is reported.
         if let Some(innermost) = self.open.last() {
             let message = match self.open.len() + self.too_deep {
                 1 => "this parenthesis is never closed".to_owned(),
@@ -175,7 +176,7 @@ impl ListBuilder {
     }
 }
 
-/// What to do about a line that cannot be read from this byte on.
+/// Help for a line that cannot be read from this byte on.
 fn advice(line: &str, at: usize) -> &'static str {
     let (before, behind) = line.split_at(at);
     if behind.starts_with('(') && before.contains('(') {
@@ -225,12 +226,12 @@ pub fn operation(pair: Pair<'_, Rule>) -> Operation {
     }
 }
 
-/// The pair of the rule `arguments`.
+/// Consumes a pair of the rule `arguments`.
 fn arguments(pair: Option<Pair<'_, Rule>>) -> Vec<Argument> {
     pair.into_iter().flat_map(Pair::into_inner).filter_map(argument).collect()
 }
 
-/// The operator of a word that the grammar has read as one.
+/// Operator of a word that the grammar has read as one.
 pub fn operator(word: &str) -> Operator {
     let word = word.to_ascii_uppercase().replace('&', "AND");
     let find = |stem: &str| Verb::ALL.iter().find(|(_, w)| *w == stem).map(|&(verb, _)| verb);

@@ -1,4 +1,4 @@
-//! pest's pairs to the syntax tree: files and their program organisation units.
+//! Conversion of pest's pairs to the syntax tree: files and their program organisation units.
 
 mod configuration;
 mod declarations;
@@ -16,7 +16,7 @@ use super::parse::Rule;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// The pair of the rule `unit`.
+/// Consumes a pair of the rule `unit`.
 pub fn unit(pair: Pair<'_, Rule>, diagnostics: &mut Vec<Diagnostic>) -> Unit {
     let mut unit = Unit::default();
     for piece in pair.into_inner() {

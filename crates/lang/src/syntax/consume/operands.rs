@@ -1,4 +1,4 @@
-//! Literals, variables, and what is handed over in calls.
+//! Literals, variables, and arguments of calls.
 
 use pest::iterators::Pair;
 
@@ -10,13 +10,13 @@ use crate::syntax::ast::{
 use crate::syntax::parse::Rule;
 use petril_base::source::Span;
 
-/// The pair of the rule `constant`.
+/// Consumes a pair of the rule `constant`.
 pub fn constant(pair: &Pair<'_, Rule>) -> Constant {
     let text = pair.as_str().trim().to_owned();
     Constant { literal: Literal::read(&text), text, span: span(pair) }
 }
 
-/// The pair of the rule `operand`.
+/// Consumes a pair of the rule `operand`.
 pub fn operand(pair: Pair<'_, Rule>) -> Option<Operand> {
     let piece = pair.into_inner().next()?;
     Some(match piece.as_rule() {
@@ -25,7 +25,7 @@ pub fn operand(pair: Pair<'_, Rule>) -> Option<Operand> {
     })
 }
 
-/// The pair of the rule `symbolic_variable`, `direct_variable` or `subscript`.
+/// Consumes a pair of the rule `symbolic_variable`, `direct_variable` or `subscript`.
 pub fn path(pair: Pair<'_, Rule>) -> Path {
     let whole = name(&pair);
     let span = whole.span;
@@ -48,7 +48,7 @@ pub fn path(pair: Pair<'_, Rule>) -> Path {
     path
 }
 
-/// What stands behind the dot.
+/// Name of a member, after the dot.
 fn member(pair: &Pair<'_, Rule>) -> Name {
     let mut name = name(pair);
     name.text.remove(0);
@@ -63,7 +63,7 @@ fn subscript(pair: Pair<'_, Rule>) -> Subscript {
     }
 }
 
-/// The pair of the rule `argument`.
+/// Consumes a pair of the rule `argument`.
 pub fn argument(pair: Pair<'_, Rule>) -> Option<Argument> {
     let mut negated = false;
     let mut named: Option<(Name, bool)> = None;
@@ -93,7 +93,7 @@ pub fn argument(pair: Pair<'_, Rule>) -> Option<Argument> {
     None
 }
 
-/// An instruction of a list in a call.
+/// Instruction of a list in a call.
 fn line(pair: Pair<'_, Rule>) -> Instruction {
     let span = span(&pair);
     if !matches!(pair.as_rule(), Rule::outer_parenthesis | Rule::inner_parenthesis) {

@@ -1,4 +1,4 @@
-//! Bodies in the standard's other textual languages: there is one thing to say of them, not one for each line.
+//! Bodies in the standard's other textual languages: reported once, not line by line.
 
 use pest::iterators::Pair;
 
@@ -6,7 +6,7 @@ use super::{first_word, span};
 use crate::syntax::parse::Rule;
 use petril_base::source::Span;
 
-/// Words that begin a line of Structured Text and no instruction.
+/// Words that begin a line of Structured Text and no instruction of IL.
 const STRUCTURED_TEXT: [&str; 13] = [
     "IF",
     "ELSIF",
@@ -23,10 +23,10 @@ const STRUCTURED_TEXT: [&str; 13] = [
     "END_REPEAT",
 ];
 
-/// The same for Sequential Function Charts.
+/// Words that begin a line of a Sequential Function Chart and no instruction of IL.
 const CHARTS: [&str; 7] = ["INITIAL_STEP", "STEP", "END_STEP", "TRANSITION", "END_TRANSITION", "ACTION", "END_ACTION"];
 
-/// The language of a body that is clearly no Instruction List, and the line that shows it.
+/// Language of a body that is clearly not Instruction List, and the line that shows it.
 pub fn recognize(body: Pair<'_, Rule>) -> Option<(String, Span)> {
     let lines = body.into_inner().filter(|piece| matches!(piece.as_rule(), Rule::instruction | Rule::bad_line));
     lines.into_iter().find_map(|line| Some((language(&line)?.to_owned(), span(&line))))
@@ -44,7 +44,8 @@ fn language(line: &Pair<'_, Rule>) -> Option<&'static str> {
     }
 }
 
-/// `name := value;`. In Instruction List `:=` stands inside parentheses only, and no `;` ends a parameter.
+/// Whether a line is an assignment `name := value;`. In Instruction List `:=` stands inside parentheses only, and no
+/// `;` ends a parameter.
 fn is_assignment(line: &Pair<'_, Rule>) -> bool {
     let left = line.as_str().split_once(":=").map_or("", |(left, _)| left);
     let behind = line.get_input().get(line.as_span().end()..).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Instruction lists and initial values that were taken out of a project in XML.
+//! Instruction lists and initial values taken out of a project in XML.
 
 use std::collections::BTreeMap;
 
@@ -11,21 +11,21 @@ use crate::syntax::parse::Rule;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// What one piece says, and what is wrong with it.
+/// Syntax tree of one piece, with its diagnostics.
 #[derive(Default)]
 pub struct Piece {
-    /// The instructions of a list.
+    /// Instructions of a list.
     pub body: Vec<Instruction>,
     /// Declaration blocks that stand between the instructions, which has been reported.
     pub blocks: Vec<VarBlock>,
-    /// The language of a list that is clearly none, and the line that shows it.
+    /// Language of a body that is clearly not Instruction List, and the line that shows it.
     pub foreign: Option<(String, Span)>,
-    /// The value of an initial value.
+    /// Value of a piece that is an initial value.
     pub initial: Option<Initial>,
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// The pair of the rule `pieces`: each piece by its offset.
+/// Consumes a pair of the rule `pieces`: each piece by its offset.
 pub fn pieces(pair: Pair<'_, Rule>) -> BTreeMap<usize, Piece> {
     let mut pieces = BTreeMap::new();
     let mut start = 0;

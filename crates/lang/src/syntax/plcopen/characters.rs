@@ -1,4 +1,4 @@
-//! The characters that a stretch of XML stands for, each at the offset where it is written.
+//! Characters that a piece of XML stands for, each at the offset where it is written.
 
 use std::ops::Range;
 
@@ -7,8 +7,8 @@ use roxmltree::Node;
 /// Elements of XHTML that stand on lines of their own.
 const LINES: [&str; 8] = ["p", "br", "div", "li", "ol", "pre", "tr", "ul"];
 
-/// The characters between tags, in as many bytes as the XML has: markup becomes blanks, with a line end for the tags of
-/// paragraphs; a reference becomes its character and blanks. The XML is well-formed.
+/// Replaces markup by blanks of the same length in bytes, with a line end for the tags of paragraphs; a reference
+/// becomes its character and blanks. The XML is well-formed.
 pub fn plain(xml: &str) -> String {
     let mut out = String::with_capacity(xml.len());
     let mut rest = xml;
@@ -40,14 +40,14 @@ pub fn plain(xml: &str) -> String {
 }
 
 enum Markup {
-    /// A section of characters, from and to these bytes of it.
+    /// CDATA section: offsets in it where its characters begin and end.
     Characters(usize, usize),
     Line,
     Nothing,
     Character(char),
 }
 
-/// The markup that a text begins with: its length and what it stands for.
+/// Markup at the beginning of a text: its length in bytes and what it stands for.
 fn markup(xml: &str) -> (usize, Markup) {
     let until = |end: &str| xml.find(end).map_or(xml.len(), |at| at + end.len());
     if let Some(section) = xml.strip_prefix("<![CDATA[") {
@@ -86,7 +86,7 @@ fn markup(xml: &str) -> (usize, Markup) {
     (reference.len(), character.map_or(Markup::Nothing, Markup::Character))
 }
 
-/// Where a tag ends; `>` may stand in the values of its attributes.
+/// Offset of the end of a tag; `>` may stand in the values of its attributes.
 fn tag_end(xml: &str) -> usize {
     let mut quote = None;
     for (at, c) in xml.char_indices() {
@@ -100,12 +100,12 @@ fn tag_end(xml: &str) -> usize {
     xml.len()
 }
 
-/// Control characters are none of the language, and the marks of pieces are control characters.
+/// Appends text, with `?` for control characters: the language has none, and they mark pieces.
 fn push(out: &mut String, text: &str) {
     out.extend(text.chars().map(|c| if c.is_ascii_control() && !"\t\r\n".contains(c) { '?' } else { c }));
 }
 
-/// The bytes between an element's tags; `None` if it has no end tag.
+/// Bytes between an element's tags; `None` if it has no end tag.
 pub fn content(node: Node<'_, '_>, text: &str) -> Option<Range<usize>> {
     let whole = node.range();
     let xml = text.get(whole.clone())?;

@@ -1,4 +1,4 @@
-//! Configurations: tasks, how often they run, and what.
+//! Configurations: tasks with their intervals, and the programs they run.
 
 use roxmltree::Node;
 
@@ -7,7 +7,7 @@ use crate::syntax::ast::{Configuration, Constant, Literal, Name, ProgramInstance
 use petril_base::xml::{Text, attribute, tag};
 
 impl Reader<'_> {
-    /// An element `<configuration>` with its resources; its global variables are those of the file.
+    /// Reads an element `<configuration>` with its resources; its global variables become those of the file.
     pub fn configuration(&mut self, node: Node<'_, '_>) -> Option<Configuration> {
         let name = self.required(node, "name")?;
         let mut configuration = Configuration { name, tasks: Vec::new(), programs: Vec::new() };
@@ -26,7 +26,7 @@ impl Reader<'_> {
         Some(Task { name, interval: attribute(node, "interval").and_then(interval) })
     }
 
-    /// An element `<pouInstance>`, run by the task it stands in.
+    /// Reads an element `<pouInstance>`, run by the task it stands in.
     fn instance(&mut self, node: Node<'_, '_>) -> Option<ProgramInstance> {
         let name = self.required(node, "name")?;
         // Version 1.0 calls the attribute `type`.
@@ -38,8 +38,8 @@ impl Reader<'_> {
     }
 }
 
-/// The interval of a task, which every tool writes in its own way: `T#20ms`, `20ms`, `PT0.02S` (ISO 8601), `00:00:00.02`.
-/// A name may stand there as well, which says nothing of the time.
+/// Interval of a task, which every tool writes in its own way: `T#20ms`, `20ms`, `PT0.02S` (ISO 8601), `00:00:00.02`.
+/// `None` for a name, which may stand there as well and does not give a time.
 fn interval(Text { text, span }: Text) -> Option<Constant> {
     let upper = text.to_ascii_uppercase();
     let clock: Vec<&str> = upper.split(':').collect();

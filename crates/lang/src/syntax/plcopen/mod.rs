@@ -1,10 +1,10 @@
-//! Projects in XML after PLCopen TC6 (versions 1.0 to 2.01), as engineering tools export them, to the same tree that the text
+//! PLCopen TC6 projects in XML (versions 1.0 to 2.01), as engineering tools export them, to the same tree that the text
 //! of their units would give.
 //!
-//! Data types, interfaces and configurations are made of elements; a body in Instruction List and the initial values are text
-//! inside the XML and are read by the grammar of the language ([`pieces`]). Every span points into the XML. What vendors add
-//! (`addData`) is looked through for units, types and global variables, which is where some tools put them; pictures,
-//! documentation and the actions of charts do not count.
+//! Data types, interfaces and configurations are made of elements; a body in Instruction List and the initial values
+//! are text inside the XML and are read by the grammar of the language ([`pieces`]). Every span points into the XML.
+//! Vendors' additions (`addData`) are searched for units, types and global variables, which some tools put there;
+//! pictures, documentation and the actions of charts are ignored.
 
 mod characters;
 mod configurations;
@@ -21,19 +21,20 @@ use petril_base::source::{Source, Span};
 use petril_base::xml::{self, attribute, tag, tag_span};
 use pieces::Pieces;
 
-/// The namespaces of all versions begin like this.
+/// Common beginning of the namespaces of all versions.
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6";
 
-/// Types and values may be nested this deep; the limit keeps everything that walks the tree within its stack.
+/// Maximum nesting depth of types and values; the limit keeps recursion over the tree within its stack.
 const MAX_DEPTH: usize = 64;
 
-/// Whether a text is XML: by its first character, which begins no text of the language, or by the ending of its name.
+/// Whether a text is XML: by its first character, which begins no text of the language, or by the ending of its file
+/// name.
 pub fn is_xml(source: &Source) -> bool {
     let ending = source.name().len().checked_sub(".xml".len()).and_then(|at| source.name().get(at..));
     source.text().trim_start().starts_with('<') || ending.is_some_and(|ending| ending.eq_ignore_ascii_case(".xml"))
 }
 
-/// Reads a project. What cannot be read is reported and left out of the tree.
+/// Reads a project. Whatever cannot be read is reported and left out of the tree.
 pub fn read(source: &Source) -> (Unit, Vec<Diagnostic>) {
     if !source.text().trim_start().starts_with('<') {
         let diagnostic = Diagnostic::new(Code::XmlSyntax, Span::default(), "this is no XML");
@@ -94,9 +95,9 @@ fn not_a_project(root: Node<'_, '_>) -> Option<Diagnostic> {
     }
 }
 
-/// Reads the parts of a project, and gathers what is wrong with them.
+/// Reader of the parts of a project, which collects their diagnostics.
 struct Reader<'a> {
-    /// The whole file.
+    /// Text of the whole file.
     text: &'a str,
     pieces: Pieces,
     diagnostics: Vec<Diagnostic>,
@@ -108,7 +109,7 @@ impl Reader<'_> {
         self.diagnostics.push(if help.is_empty() { diagnostic } else { diagnostic.help(help) });
     }
 
-    /// An attribute that must be there.
+    /// Value of a required attribute; reports a missing one.
     fn required(&mut self, node: Node<'_, '_>, name: &str) -> Option<Name> {
         let found = attribute(node, name);
         if found.is_none() {
@@ -118,7 +119,7 @@ impl Reader<'_> {
         found.map(|found| Name { text: found.text, span: found.span })
     }
 
-    /// The name that an element declares.
+    /// Name that an element declares; reports one that IL does not allow.
     fn declared(&mut self, node: Node<'_, '_>) -> Option<Name> {
         let name = self.required(node, "name")?;
         let plain = name.text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');

@@ -1,7 +1,7 @@
-//! The texts in a project that the grammar reads: instruction lists and initial values.
+//! Texts in a project that the grammar reads: instruction lists and initial values.
 //!
-//! All are read at once, from a text as long as the file that holds nothing else: each piece stands at its own offset, so
-//! that its spans are right, between two marks in the place of the markup around it.
+//! The pieces are parsed all at once, from a text as long as the file that holds nothing else: each piece stands at its
+//! own offset, so that its spans are right, between two marks in the place of the markup around it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -18,16 +18,16 @@ use petril_base::diagnostic::Diagnostic;
 use petril_base::source::Span;
 use petril_base::xml::{attribute, tag};
 
-/// These cannot stand in XML; the grammar knows them.
+/// Mark before an instruction list. Marks are characters that cannot stand in XML; the grammar knows them.
 const BODY: u8 = 1;
 const VALUE: u8 = 2;
 const END: u8 = 3;
 
-/// What was read, by the offset where it stands.
+/// Syntax trees of the pieces, by their offsets.
 pub struct Pieces(BTreeMap<usize, Piece>);
 
 impl Pieces {
-    /// Reads every instruction list and initial value below an element.
+    /// Parses every instruction list and initial value below an element.
     pub fn of(root: Node<'_, '_>, text: &str) -> (Self, Vec<Diagnostic>) {
         let mut gathered = Gathered { text, out: vec![b'.'; text.len()], end: 0, unread: BTreeMap::new() };
         for node in root.descendants().filter(Node::is_element) {
@@ -41,11 +41,11 @@ impl Pieces {
         let text = String::from_utf8_lossy(&gathered.out);
         let mut pieces = match IlParser::parse(Rule::pieces, &text) {
             Ok(mut pairs) => pairs.next().map(consume::pieces).unwrap_or_default(),
-            // The grammar reads any text, so this is a limit of the parser itself.
+            // The grammar accepts any text, so the error is a limit of the parser itself.
             Err(error) => return (Self(BTreeMap::new()), vec![expected::diagnostic(&error, &text, 0)]),
         };
         for (start, diagnostic) in unread {
-            // What an open comment hides is missing everywhere: no more than its opening is worth telling.
+            // An open comment hides what follows, and everything hidden would be missing: only its opening is reported.
             let span = diagnostic.span();
             let body = vec![Instruction { label: None, operation: Some(Operation::Broken), span }];
             pieces.insert(start, Piece { body, diagnostics: vec![diagnostic], ..Piece::default() });
@@ -53,19 +53,19 @@ impl Pieces {
         (Self(pieces), Vec::new())
     }
 
-    /// The piece that begins at an offset; each can be had once.
+    /// Takes out the piece that begins at an offset; `None` the second time.
     pub fn take(&mut self, start: usize) -> Option<Piece> {
         self.0.remove(&start)
     }
 }
 
-/// The text of all pieces while it is made.
+/// Text of all pieces, under construction.
 struct Gathered<'a> {
     text: &'a str,
     out: Vec<u8>,
-    /// Where the last piece ends.
+    /// Offset of the end of the last piece.
     end: usize,
-    /// Why a list is not read, by the offset where it begins.
+    /// Diagnostics of lists that are not parsed, by the offset where the list begins.
     unread: BTreeMap<usize, Diagnostic>,
 }
 
@@ -90,7 +90,7 @@ impl Gathered<'_> {
         let Some(value) = self.text.get(start..end) else { return };
         if start > self.end && is_quote(start - 1) && is_quote(end) && !value.trim().is_empty() {
             self.put(VALUE, start..end, &plain(value));
-            // A piece of text in quotes that does not end goes no further than a line end.
+            // A text in quotes that does not end goes no further than a line end.
             self.out[end..end + 2].copy_from_slice(&[END, b'\n']);
             self.end = end + 2;
         }

@@ -9,7 +9,7 @@ use petril_base::source::Span;
 use petril_base::xml::{attribute, child, elements, tag, tag_span};
 
 impl Reader<'_> {
-    /// An element `<pou>`.
+    /// Reads an element `<pou>`.
     pub fn pou(&mut self, node: Node<'_, '_>) -> Option<Pou> {
         let known = self.diagnostics.len();
         let name = self.declared(node)?;
@@ -34,7 +34,8 @@ impl Reader<'_> {
         }
         self.body(node, &mut pou);
         if pou.foreign.is_some() {
-            // It will be refused as a whole if it is needed; how another language declares its variables is no mistake.
+            // The unit is refused as a whole if it is needed; how another language declares its variables is not a
+            // mistake.
             self.diagnostics.truncate(known);
         }
         Some(pou)
@@ -48,7 +49,7 @@ impl Reader<'_> {
         })
     }
 
-    /// An element like `<inputVars>`; `None` if it is no block of declarations.
+    /// Reads an element like `<inputVars>`; `None` if it is not a block of declarations.
     pub fn block(&mut self, node: Node<'_, '_>) -> Option<VarBlock> {
         let kind = match tag(node) {
             "localVars" => VarKind::Local,
@@ -79,7 +80,7 @@ impl Reader<'_> {
         Some(VarBlock { kind, constant: is("constant").is_some(), retain, declarations, span: tag_span(node) })
     }
 
-    /// What a unit does, or the language in which it says so.
+    /// Reads the body of a unit, or the language of a body that is not in IL.
     fn body(&mut self, node: Node<'_, '_>, pou: &mut Pou) {
         let mut bodies = elements(node).filter(|&part| tag(part) == "body");
         let Some(first) = bodies.next() else {
@@ -113,7 +114,7 @@ impl Reader<'_> {
         self.actions(node, &mut pou.body);
     }
 
-    /// Actions belong to a unit, but not to its list; a list that calls one is not what it seems.
+    /// Refuses calls of actions: these belong to the unit, but are not part of its list.
     fn actions(&mut self, node: Node<'_, '_>, body: &mut [Instruction]) {
         let actions = child(node, "actions").into_iter().flat_map(elements);
         let actions: Vec<_> = actions.filter_map(|action| attribute(action, "name")).collect();
@@ -131,7 +132,7 @@ impl Reader<'_> {
     }
 }
 
-/// The language of a body by its tag, empty for Instruction List; `None` if the tag names none.
+/// Language of a body by its tag, empty for Instruction List; `None` if the tag does not name a language.
 fn language(tag: &str) -> Option<&'static str> {
     Some(match tag {
         "IL" => "",

@@ -9,13 +9,13 @@ use petril_base::source::Span;
 use petril_base::xml::{attribute, child, elements, tag, tag_span};
 
 impl Reader<'_> {
-    /// An element `<dataType>`.
+    /// Reads an element `<dataType>`.
     pub fn data_type(&mut self, node: Node<'_, '_>) -> Option<TypeDeclaration> {
         let name = self.declared(node)?;
         Some(TypeDeclaration { name, spec: self.type_in(node, "baseType", 0), initial: self.initial(node) })
     }
 
-    /// An element `<variable>`, of a block or a structure.
+    /// Reads an element `<variable>`, of a block or a structure.
     pub fn variable(&mut self, node: Node<'_, '_>, depth: usize) -> Option<Declaration> {
         let name = self.declared(node)?;
         let location = attribute(node, "address").filter(|address| !address.text.is_empty());
@@ -28,7 +28,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The type in an element's child `<type>` or `<baseType>`; `None` has been reported.
+    /// Reads the type in an element's child `<type>` or `<baseType>`; `None` has been reported.
     pub fn type_in(&mut self, node: Node<'_, '_>, holder: &str, depth: usize) -> Option<TypeSpec> {
         let Some(inner) = child(node, holder).and_then(|holder| elements(holder).next()) else {
             self.report(Code::XmlSyntax, tag_span(node), format!("this `<{}>` has no `<{holder}>`", tag(node)), "");
@@ -37,7 +37,7 @@ impl Reader<'_> {
         self.type_of(inner, depth)
     }
 
-    /// The type that an element like `<INT/>`, `<derived/>` or `<array>` stands for.
+    /// Reads the type that an element like `<INT/>`, `<derived/>` or `<array>` stands for; `None` has been reported.
     pub fn type_of(&mut self, node: Node<'_, '_>, depth: usize) -> Option<TypeSpec> {
         let span = tag_span(node);
         if depth > MAX_DEPTH {
@@ -74,7 +74,7 @@ impl Reader<'_> {
                 };
                 Some(TypeSpec::Subrange { base, range: self.range(range)? })
             }
-            // Of these the name is enough, since they are not modelled.
+            // For types that are not modelled the name is enough.
             "string" => named("STRING"),
             "wstring" => named("WSTRING"),
             "pointer" => named("POINTER"),
@@ -108,7 +108,7 @@ impl Reader<'_> {
     }
 }
 
-/// A tag without its `<`.
+/// Span of a tag without its `<`.
 fn word(tag: Span) -> Span {
     Span::new(tag.start + 1, tag.end)
 }

@@ -1,4 +1,4 @@
-//! Initial values: text where they are simple, elements where they are made of others.
+//! Initial values: text where they are simple, elements where they have parts.
 
 use roxmltree::Node;
 
@@ -9,13 +9,13 @@ use petril_base::source::Span;
 use petril_base::xml::{attribute, child, elements, tag, tag_span};
 
 impl Reader<'_> {
-    /// The initial value that the declaration of an element gives.
+    /// Reads the initial value of a declaration, by its element.
     pub fn initial(&mut self, declaration: Node<'_, '_>) -> Option<Initial> {
         let holder = child(declaration, "initialValue")?;
         self.value(holder, 0)
     }
 
-    /// The value inside an element.
+    /// Reads the value inside an element.
     fn value(&mut self, holder: Node<'_, '_>, depth: usize) -> Option<Initial> {
         let node = elements(holder).find(|&node| matches!(tag(node), "simpleValue" | "arrayValue" | "structValue"))?;
         let span = tag_span(node);
@@ -29,7 +29,7 @@ impl Reader<'_> {
             "structValue" => {
                 let member = |part| Some((self.required(part, "member")?, self.value(part, depth + 1)?));
                 let members: Vec<_> = parts.filter_map(member).collect();
-                // Without members every one of them has what its type says.
+                // Without listed members, every member has the initial value of its type.
                 if members.is_empty() {
                     return None;
                 }
@@ -40,7 +40,7 @@ impl Reader<'_> {
         Some(Initial { kind, span })
     }
 
-    /// A value of an array, with how often it comes.
+    /// Value of an array, with its repetition count.
     fn item(&mut self, part: Node<'_, '_>, depth: usize) -> Option<(u64, Initial)> {
         let times = match attribute(part, "repetitionValue") {
             None => 1,
