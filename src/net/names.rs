@@ -6,7 +6,7 @@ use crate::printable::{is_printable, line};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Names {
     text: String,
-    /// Where each name ends. It begins where the one before it ends.
+    /// End offset of each name. A name begins where the one before it ends.
     ends: Vec<usize>,
 }
 
@@ -16,7 +16,7 @@ impl Names {
         self.ends.push(self.text.len());
     }
 
-    /// The names as people read them.
+    /// Returns the names made printable.
     pub fn into_printable(self) -> Self {
         if self.text.chars().all(is_printable) {
             return self;
