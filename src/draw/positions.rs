@@ -1,15 +1,15 @@
-//! One position for each node of a system net, for tools that show nets and do not place them.
+//! One position for each node of a system net, for tools that show nets and have no layout of their own.
 //!
-//! The control places stand in the first column in the order in which the token passes them; half a row below each stand the
-//! transitions that take the token there. On the right come the bits, one a row, and then the plant, one component
+//! Control places stand in the first column in the order in which the token passes them; the transitions that take the
+//! token from each stand half a row below it. To the right come the bits, one per row, then the plant, one component
 //! below the other.
 
 use super::control::Control;
 use crate::translate::{PlaceRole, System, TransitionRole};
 
-/// Distance of neighbouring columns.
+/// Distance between neighbouring columns.
 const COLUMN: i32 = 140;
-/// Distance of neighbouring rows.
+/// Distance between neighbouring rows.
 const ROW: i32 = 100;
 /// Distance of the first node from both edges.
 const MARGIN: i32 = 60;
@@ -17,18 +17,18 @@ const MARGIN: i32 = 60;
 /// A position in the plane, in the units of PNML: x to the right, y down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Point {
-    /// To the right.
+    /// Distance to the right.
     pub x: i32,
-    /// Down.
+    /// Distance down.
     pub y: i32,
 }
 
-/// One position for each node of a net, no two the same.
+/// Distinct positions, one for each node of a net.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Positions {
-    /// By position of the place.
+    /// Positions of the places, indexed by place.
     pub places: Vec<Point>,
-    /// By position of the transition.
+    /// Positions of the transitions, indexed by transition.
     pub transitions: Vec<Point>,
 }
 
@@ -75,13 +75,13 @@ impl Positions {
     }
 }
 
-/// The row in which each component of the plant begins.
+/// First row of each component of the plant.
 fn component_tops(system: &System) -> Vec<usize> {
     let heights = system.plant.components.iter().map(|c| c.places.len().max(c.transitions.len()) + 1);
     heights.scan(0, |top, height| Some(std::mem::replace(top, *top + height))).collect()
 }
 
-/// A node in a column and half row.
+/// The point of a column and a half row.
 fn point(column: usize, half_row: usize) -> Point {
     Point { x: MARGIN + COLUMN * column as i32, y: MARGIN + ROW / 2 * half_row as i32 }
 }
