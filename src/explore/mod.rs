@@ -1,8 +1,8 @@
-//! Reachable states: a seam ([`StateSpace`]), a packed store, a breadth-first search, and the graph it leaves.
+//! Reachable states: an interface ([`StateSpace`]), a packed store, breadth-first search, and the reachability graph.
 //!
-//! Two graphs are made from a system: that of its [`Markings`], where every firing is a step (the transition view), explored by
-//! the [`engine`]; and that of its [`ScanSpace`], where a step is one scan (the scan view), explored by [`explore`], which knows
-//! nothing of programs.
+//! A system has two graphs: that of its [`Markings`], in which every firing is a step (the transition view), explored
+//! by the [`engine`]; and that of its [`ScanSpace`], in which a step is one scan (the scan view), explored by
+//! [`explore`], which does not depend on programs.
 
 mod asserted;
 mod budget;

@@ -1,25 +1,24 @@
-//! The seam between what has states and what explores them.
+//! Interface between systems with states and the search.
 
 use crate::flat::Hazard;
 use crate::interpret::Fault;
 use crate::net::PlaceId;
 use crate::semantics::VarId;
 
-/// A system as states and steps. A state is a vector of `u64` words, of the same length for all states.
+/// A transition system. A state is a vector of `u64` words, of the same length for all states.
 ///
-/// Successors depend on nothing but the state, and come in the same order whenever asked for. Implementations are shared
-/// between threads.
+/// Successors depend only on the state, and always come in the same order. Implementations are shared between threads.
 pub trait StateSpace: Sync {
     /// Length of a state in words.
     fn words(&self) -> usize;
 
-    /// Calls `visit` for each initial state.
+    /// Calls `visit` with each step to an initial state.
     fn initial(&self, visit: &mut dyn FnMut(Step<'_>));
 
-    /// Calls `visit` for each step out of a state.
+    /// Calls `visit` with each step out of a state.
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>));
 
-    /// The steps out of some states, given one after another. What is computed for many states at once is computed here.
+    /// Computes the steps out of consecutive states. Spaces that compute many states at once override this.
     fn expand(&self, states: &[u64], into: &mut Successors) {
         for state in states.chunks_exact(self.words()) {
             self.successors(state, &mut |step| into.add(step));
@@ -27,66 +26,67 @@ pub trait StateSpace: Sync {
         }
     }
 
-    /// The bits of a state that its steps depend on: states that agree in these have the same steps. `None` if all do.
+    /// Mask of the bits of a state on which its steps depend: states that agree on these have the same steps. `None`
+    /// for all bits.
     fn relevant(&self) -> Option<&[u64]> {
         None
     }
 
-    /// About how many steps leave a state. A space whose steps are counted in millions says so here, so that the search
-    /// can give up before it begins; the initial states are meant by `None`.
+    /// Approximate number of steps out of a state; `None` stands for the initial states. Spaces with millions of steps
+    /// override this, so that the search can give up before it begins.
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {
         let _ = state;
         8
     }
 
-    /// Why the space is too large for any search, and what its owner can do about it; or why its steps cannot be trusted.
+    /// Reason why the space is too large for any search, and what to do about it; or why its steps cannot be trusted.
     fn refusal(&self) -> Option<String> {
         None
     }
 }
 
-/// Says which scans can begin: what inputs do not do is not explored.
+/// Filter of the scans that can begin: input values that are excluded are not explored.
 pub trait Admission: Sync {
-    /// Whether a scan may begin with these inputs. `before` gives the values of variables at the end of the scan before, `now` those
-    /// of the inputs that are read.
+    /// Whether a scan may begin with these inputs. `before` gives the values of variables at the end of the previous
+    /// scan, `now` those of the inputs that are read.
     fn admits(&self, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64) -> bool;
-    /// The variables whose values before make a difference.
+    /// The variables whose previous values make a difference.
     fn recalls(&self) -> Vec<VarId>;
 }
 
-/// One step.
+/// A step of a state space.
 #[derive(Clone, Copy, Debug)]
 pub enum Step<'a> {
-    /// It leads to this state. The words are only valid during the call.
+    /// Step to this state. The words are only valid during the call.
     To(&'a [u64]),
-    /// It leads nowhere: something that must not happen does.
+    /// Failing step, without a successor.
     Fails(Failure),
 }
 
-/// Why a step has no state behind it.
+/// Reason why a step has no successor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// A scan does not end.
+    /// The scan does not end.
     Scan(Fault),
-    /// A scan meets a hazard that is an error, in this line (from 0).
+    /// The scan has a hazard that is an error, in this line (from 0).
     Hazard(usize, Hazard),
-    /// A firing puts a second token on a place.
+    /// The firing puts a second token on a place.
     NotSafe(PlaceId),
 }
 
-/// The steps out of some states, state after state.
+/// Steps out of consecutive states.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Successors {
-    /// The words of the states they lead to.
+    /// Words of the successors.
     pub(super) words: Vec<u64>,
-    /// For each state, where the words of its successors end.
+    /// For each state, the end offset of its successors' words.
     pub(super) ends: Vec<usize>,
-    /// How steps fail, each with the position of the state, once for each.
+    /// Failures of steps, each once, with the position of the state.
     pub(super) failures: Vec<(usize, Failure)>,
 }
 
 impl Successors {
-    /// A step out of the state at hand.
+    /// Adds a step out of the current state.
     pub fn add(&mut self, step: Step<'_>) {
         match step {
             Step::To(state) => self.words.extend_from_slice(state),
@@ -100,7 +100,7 @@ impl Successors {
         }
     }
 
-    /// All steps out of the state at hand were added.
+    /// Ends the steps out of the current state.
     pub fn finish(&mut self) {
         self.ends.push(self.words.len());
     }

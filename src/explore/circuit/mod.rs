@@ -1,7 +1,7 @@
-//! Many scans at once: a scan as a network of gates, each of which computes one bit of many scans.
+//! Bit-parallel simulation: a scan as a network of gates, each of which computes one bit of many scans at once.
 //!
-//! A lane is one scan. What it begins with is a packed state, its inputs set; what it ends with takes its place. A plane holds
-//! one bit of all lanes, so a gate is one instruction of the processor for 64 scans, and the network knows no jumps.
+//! A lane is one scan: a packed state with its inputs set, which is overwritten by the state at the end of the scan. A
+//! plane holds one bit of all lanes, so a gate is one machine instruction for 64 scans, and the network has no jumps.
 
 mod compile;
 mod gates;
@@ -25,35 +25,35 @@ use crate::semantics::VarId;
 use compile::{Limits, compile};
 use transpose::transpose;
 
-/// A scan of packed states.
+/// Network that simulates scans of packed states.
 pub(super) struct Circuit {
-    /// Words of a state.
+    /// Number of words of a state.
     words: usize,
-    /// Where each input is in a state: word and bit. They are nodes from 1.
+    /// Word and bit of each input in a state. Inputs are the nodes from 1.
     inputs: Vec<(usize, u32)>,
     gates: Vec<Gate>,
-    /// What each bit of a state becomes: word, bit, wire. Other bits stay as they are.
+    /// New value of bits of a state: word, bit, wire. Other bits are unchanged.
     outputs: Vec<(usize, u32, Wire)>,
     errors: Vec<(Wire, usize, Hazard)>,
-    /// When control comes to these lines.
+    /// Conditions under which control reaches ranges of lines.
     lines: Vec<(Wire, Range<usize>)>,
 }
 
-/// Scans computed together.
+/// Number of scans computed together.
 pub(super) const LANES: usize = 256;
 
-/// The planes of one node.
+/// One bit of all lanes: the values of one node.
 type Planes = [u64; LANES / 64];
 
-/// Memory used again and again.
+/// Reusable memory.
 #[derive(Default)]
 pub(super) struct Scratch {
     nodes: Vec<Planes>,
 }
 
 impl Circuit {
-    /// The scan of a program whose variables stand in these fields of states of so many words. Nothing if the interpreter
-    /// serves better.
+    /// Compiles the scan of a program, with the fields of its variables in states of `words` words. `None` if the scan
+    /// is left to the interpreter.
     pub(super) fn of(
         program: &FlatProgram,
         tolerated: Tolerated,
@@ -72,7 +72,7 @@ impl Circuit {
         Some(Self { words, inputs, gates, outputs, errors, lines: Vec::new() }.pruned())
     }
 
-    /// What [`Circuit::of`] gives, but it only tells which lines are executed.
+    /// Compiles the scan as [`Circuit::of`] does, but only to find the lines that are executed.
     pub(super) fn of_lines(
         program: &FlatProgram,
         tolerated: Tolerated,
@@ -87,7 +87,7 @@ impl Circuit {
         Some(Self { words, inputs, gates, outputs, errors, lines }.pruned())
     }
 
-    /// Without the gates and inputs that nothing depends on.
+    /// Removes unused gates and inputs.
     fn pruned(mut self) -> Self {
         let first = 1 + self.inputs.len();
         let mut used = vec![false; first + self.gates.len()];
@@ -121,8 +121,8 @@ impl Circuit {
         self
     }
 
-    /// Makes of each state, up to [`LANES`] of them one after another, the one at the end of its scan; calls `failed` for the
-    /// lanes whose scans fail, in ascending order. What is left of these means nothing.
+    /// Replaces each of up to [`LANES`] consecutive states by the one at the end of its scan; calls `failed` for the
+    /// lanes whose scans fail, in ascending order. The states left in these lanes are meaningless.
     pub(super) fn run(&self, lanes: &mut [u64], scratch: &mut Scratch, mut failed: impl FnMut(usize, Failure)) {
         let count = lanes.len() / self.words;
         let nodes = self.evaluate(lanes, scratch);
@@ -140,7 +140,7 @@ impl Circuit {
         }
     }
 
-    /// Adds the lines that are executed in a scan from one of these states, up to [`LANES`] of them.
+    /// Adds the lines that are executed in a scan from one of up to [`LANES`] states.
     pub(super) fn reach(&self, lanes: &[u64], scratch: &mut Scratch, executed: &mut FixedBitSet) {
         let count = lanes.len() / self.words;
         let nodes = self.evaluate(lanes, scratch);
@@ -195,7 +195,7 @@ impl Circuit {
         }
     }
 
-    /// Gives a group of lanes what their planes say.
+    /// Writes the planes of the outputs to a group of lanes.
     fn write(&self, lanes: &mut [u64], group: usize, nodes: &[Planes]) {
         let lanes = &mut lanes[group * 64 * self.words..];
         let mut outputs = self.outputs.iter().peekable();
@@ -216,7 +216,7 @@ impl Circuit {
     }
 }
 
-/// Where the bits of all fields are, and for each variable the wires of its own.
+/// Positions of the bits of all fields, and for each variable the wires of its bits.
 fn inputs(program: &FlatProgram, fields: &[(VarId, Field)]) -> (Vec<(usize, u32)>, Vec<Vec<Wire>>) {
     let mut inputs = Vec::new();
     let mut own = vec![Vec::new(); program.variables.len()];
@@ -229,7 +229,7 @@ fn inputs(program: &FlatProgram, fields: &[(VarId, Field)]) -> (Vec<(usize, u32)
     (inputs, own)
 }
 
-/// What a wire gives.
+/// Values of a wire.
 #[inline(always)]
 fn plane(nodes: &[Planes], wire: Wire) -> Planes {
     let complement = if wire.is_complement() { u64::MAX } else { 0 };
