@@ -1,4 +1,4 @@
-//! What a free input can be, as it is written: `level: 0..100`, `k: 0, 3, 7`.
+//! Domains of free inputs, written like `level: 0..100` or `k: 0, 3, 7`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::flat::FlatProgram;
@@ -6,21 +6,21 @@ use crate::semantics::Role;
 use crate::source::Span;
 use crate::translate::{Domain, Domains, Plant};
 
-/// A line about the values of an input, before its name means anything.
+/// A domain as written, not yet bound.
 #[derive(Clone, Debug)]
 pub struct DomainText {
-    /// The input.
+    /// Name of the input.
     pub name: String,
-    /// Where its name stands.
+    /// Span of the name.
     pub span: Span,
-    /// The numbers from one to another, both included, each with its place.
+    /// Ranges of numbers, both ends included, each with its span.
     pub ranges: Vec<(i128, i128, Span)>,
 }
 
-/// Adds what a line says to the domains of a program in its plant.
+/// Binds a domain, and adds it to those of a program with its plant.
 ///
 /// # Errors
-/// The name is no free input, the values are not of its type, or it has a domain already.
+/// The name is not a free input, the values are not of its type, or it already has a domain.
 pub fn bind_domain(
     text: &DomainText,
     program: &FlatProgram,

@@ -1,4 +1,4 @@
-//! Bound formulas and nodes as text, in the terms of the program and its net, or of a net alone.
+//! Text of bound formulas and nodes, with the names of the program and its net, or of a net alone.
 
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
@@ -10,7 +10,7 @@ use crate::net::{Net, PlaceId, TransitionId};
 use crate::semantics::{Role, VarId};
 use crate::translate::{PlaceRole, System};
 
-/// What atoms are called.
+/// Source of names for atoms.
 #[derive(Clone, Copy)]
 enum Words<'a> {
     Program(&'a System),
@@ -73,21 +73,21 @@ enum Strength {
 }
 
 impl Bound {
-    /// The formula as one would write it.
+    /// Text of the formula, in the syntax of requirements.
     #[must_use]
     pub fn text(&self, system: &System) -> String {
         self.set(Words::Program(system), Strength::Iff)
     }
 
-    /// The same of a formula about a net alone.
+    /// Text of a formula about a net alone.
     #[must_use]
     pub fn text_in_net(&self, net: &Net) -> String {
         self.set(Words::Net(net), Strength::Iff)
     }
 
-    /// The text, in parentheses if it binds more weakly than what stands around it.
+    /// Text of the formula, in parentheses if it binds more weakly than its context.
     fn set(&self, words: Words<'_>, around: Strength) -> String {
-        // Each operand with what it must bind at least as strongly as: all but `->` take their operands from the left.
+        // Each operand with its minimum binding strength: all operators but `->` are left-associative.
         let two = |(f, left): (&Self, Strength), sign: &str, (g, right): (&Self, Strength), strength: Strength| {
             let text = format!("{} {sign} {}", f.set(words, left), g.set(words, right));
             parenthesise(text, strength < around)
@@ -170,7 +170,8 @@ impl Path<Bound> {
 }
 
 impl Term {
-    /// One side of a comparison. A number beside a variable is written as a value of this variable: `16#8001`, `T#1s`.
+    /// Text of one side of a comparison. A number beside a variable is written as a value of its type: `16#8001`,
+    /// `T#1s`.
     fn beside(&self, other: &Self, words: Words<'_>) -> String {
         if let (
             Self::Number(number),
@@ -205,12 +206,12 @@ impl Term {
 }
 
 impl Past {
-    /// Whether it counts to this number and no further.
+    /// Whether the term is a count with this upper bound.
     fn is_run_of(&self, n: i128) -> bool {
         matches!(self, Self::Run { most, .. } if i128::from(*most) == n)
     }
 
-    /// As a truth value, if it stands for one.
+    /// Text of the term, as a truth value if it is one.
     fn set(&self, words: Words<'_>) -> String {
         match self {
             Self::First => "at first scan".to_owned(),
@@ -239,13 +240,13 @@ fn letter(quantifier: Quantifier) -> &'static str {
 }
 
 impl Dag {
-    /// What a node says, as a sentence about a state: "`f` is true", "`f` is false", or the temporal formula.
+    /// Sentence about a state that a node expresses: "`f` is true", "`f` is false", or that the temporal formula holds.
     #[must_use]
     pub fn sentence(&self, id: NodeId, system: &System) -> String {
         self.say(id, Words::Program(system))
     }
 
-    /// The same of a node about a net alone.
+    /// Sentence of a node about a net alone.
     #[must_use]
     pub fn sentence_in_net(&self, id: NodeId, net: &Net) -> String {
         self.say(id, Words::Net(net))
@@ -280,7 +281,7 @@ impl Dag {
         }
     }
 
-    /// Whether a node is this constant, as far as its outermost operators show.
+    /// Whether a node is a constant, as far as its outermost operators show.
     #[must_use]
     pub fn is_constant(&self, id: NodeId, value: bool) -> bool {
         match self.node(id) {

@@ -1,9 +1,9 @@
-//! How strongly operators bind: one table for requirements, formulas of LTL and safety functions.
+//! Priorities of operators: one table for requirements, LTL formulas and safety functions.
 //!
-//! What both have, IEC 61131-3 says of expressions (the table of the operators of Structured Text); implications, which it does not know,
-//! bind most weakly. Each grammar has a type of rules of its own, so the table is made of macros.
+//! The priorities are those of Structured Text in IEC 61131-3; implications, which it does not have, bind most weakly.
+//! Each grammar has its own type of rules, so the table is made of macros.
 
-/// The connectives, from the weakest to the strongest.
+/// Connectives, from the weakest to the strongest.
 macro_rules! connectives {
     ($rule:ident) => {
         PrattParser::new()
@@ -27,8 +27,8 @@ macro_rules! comparisons {
     }};
 }
 
-/// Where the second of two comparisons in a row stands, as in `a = b = c`, among the parts of a formula; connectives come between others.
-/// IEC 61131-3 would compare the truth of the first with `c`, and who writes it hardly means that.
+/// Span of the second of two chained comparisons, as in `a = b = c`, among the parts of a formula; other comparisons
+/// are separated by connectives. IEC 61131-3 would compare the truth of the first with `c`, which is hardly ever meant.
 macro_rules! chained {
     ($pairs:expr, $rule:ident: $($comparison:ident)|+; $($connective:ident)|+) => {{
         let mut compared = false;
