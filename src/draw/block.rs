@@ -14,13 +14,13 @@ const GAP: f64 = 84.0;
 const TRANSITION_PITCH: f64 = 34.0;
 /// Height of a place on the right with the room around it.
 const PLACE_PITCH: f64 = 34.0;
-/// Least distance of places on the left.
+/// Minimum distance between places on the left.
 const CONTROL_PITCH: f64 = 48.0;
 /// Room above and below the middle and the right column.
 const PADDING: f64 = 7.0;
 /// Room between a place and its name.
 pub const LABEL_GAP: f64 = 6.0;
-/// Distance of arcs at the side of a transition.
+/// Distance between arcs at the side of a transition.
 const PORT_PITCH: f64 = 8.0;
 
 /// A block with its nodes ordered but not yet placed.
@@ -32,7 +32,7 @@ pub struct Block<'a> {
     right: Vec<PlaceId>,
 }
 
-/// The widths of a block's columns.
+/// Widths of a block's columns.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Widths {
     /// Width of the names of the places on the left.

@@ -47,7 +47,7 @@ impl<'a> Control<'a> {
         self.system.moves(self.places[row])
     }
 
-    /// All control places in their order.
+    /// Control places in order.
     pub fn places(&self) -> &[PlaceId] {
         &self.places
     }

@@ -1,4 +1,4 @@
-//! Orders two columns of nodes so that few arcs cross.
+//! Ordering of two columns of nodes so that few arcs cross.
 
 /// Length up to which columns are ordered by trying every permutation; instructions on single bits are within it.
 const SMALL: usize = 4;
@@ -47,7 +47,7 @@ fn good(columns: &Columns) -> (Vec<usize>, Vec<usize>) {
     let mut middle: Vec<usize> = (0..columns.left.len()).collect();
     let mut right: Vec<usize> = (0..columns.right_count).collect();
     let of_right = columns.seen_from_right();
-    // Means are compared as fractions.
+    // Means are scaled by the number of nodes in the middle, then rounded down.
     right.sort_by_key(|&node| {
         let neighbours = &of_right[node];
         neighbours.iter().sum::<usize>() * columns.left.len() / neighbours.len().max(1)

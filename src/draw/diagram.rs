@@ -1,4 +1,4 @@
-//! The whole system net: one block for each control place, in the columns of a newspaper.
+//! The picture of the whole system net: one block for each control place, laid out in columns like a newspaper.
 //!
 //! First the PLC's cycle and the program, from `idle` to `End`; then the plant, one block for each component; then the bits.
 //! Every place stands once as itself. Wherever an instruction touches a bit, or jumps, there is a grey copy of the place.

@@ -1,4 +1,4 @@
-//! One position for each node of a system net, for tools that show nets and have no layout of their own.
+//! Positions of the nodes of a system net, for tools that show nets and have no layout of their own.
 //!
 //! Control places stand in the first column in the order in which the token passes them; the transitions that take the
 //! token from each stand half a row below it. To the right come the bits, one per row, then the plant, one component
@@ -11,7 +11,7 @@ use crate::translate::{PlaceRole, System, TransitionRole};
 const COLUMN: i32 = 140;
 /// Distance between neighbouring rows.
 const ROW: i32 = 100;
-/// Distance of the first node from both edges.
+/// Distance between the first node and both edges.
 const MARGIN: i32 = 60;
 
 /// A position in the plane, in the units of PNML: x to the right, y down.

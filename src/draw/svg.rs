@@ -16,7 +16,7 @@ pub const RADIUS: f64 = 12.0;
 pub const BOX_HEIGHT: f64 = 24.0;
 /// Radius of a token.
 const TOKEN: f64 = 4.5;
-/// Size of the letters.
+/// Font size.
 const FONT: f64 = 11.0;
 /// Width of a letter; in the widest of the usual monospaced fonts a letter is 0.61 of the font size wide.
 const LETTER: f64 = 6.8;

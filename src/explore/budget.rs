@@ -15,7 +15,7 @@ pub struct Budget {
 }
 
 impl Default for Budget {
-    /// A hundred million states, eight gibibytes.
+    /// Limits of 100 million states and 8 GiB.
     fn default() -> Self {
         Self { states: 100_000_000, bytes: 8 << 30 }
     }

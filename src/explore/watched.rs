@@ -13,7 +13,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 /// Does some work on another thread, and sets the flag when `watch` returns a reason to stop. Returns the result of the
 /// work, and the reason, if there was one.
 ///
-/// All long work on nets is cancelled in this way: it checks the flag now and then.
+/// Long work on nets is always cancelled in this way: it checks the flag now and then.
 pub fn watched<T: Send>(
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
     progress: &Progress,

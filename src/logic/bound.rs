@@ -8,8 +8,7 @@ use super::past::Past;
 use crate::net::{PlaceId, TransitionId};
 use crate::semantics::{Type, VarId};
 
-/// A bound formula over the states of one view. `F` and `G` are represented by untils: `F g` = `TRUE U g`, `G f` = `f W
-/// FALSE`.
+/// A bound formula over the states of one view. F and G are represented by untils: `F g = TRUE U g`, `G f = f W FALSE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// A constant.

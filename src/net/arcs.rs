@@ -1,4 +1,4 @@
-//! The arcs of a net, one after another in one piece of memory: a net may have millions.
+//! The arcs of a net, stored contiguously, since a net may have millions.
 
 use super::{PlaceId, TransitionId};
 
@@ -28,11 +28,11 @@ impl<'n> Arcs<'n> {
     }
 }
 
-/// The arcs of all transitions, by position.
+/// Arcs of all transitions, by position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct ArcTable {
     places: Vec<PlaceId>,
-    /// The weight of each arc; empty while all are 1.
+    /// Weight of each arc; empty while all are 1.
     weights: Vec<u64>,
     /// End offsets of each transition's three lists. A list begins where the one before it ends.
     ends: Vec<[u32; 3]>,

@@ -1,4 +1,4 @@
-//! Nets are built place by place and transition by transition, then never changed.
+//! Builder of nets: places and transitions are added one by one; a finished net is immutable.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ const READ: Use = 4;
 const LOOP: Use = CONSUME | PRODUCE;
 
 impl Builder {
-    /// An empty net.
+    /// Begins with an empty net.
     pub fn new(name: impl Into<String>) -> Self {
         Self { net: Net::empty(name.into()), uses: Vec::new() }
     }
@@ -96,7 +96,7 @@ impl Builder {
         self.net.arcs.push(list(0), list(1), list(2))
     }
 
-    /// The finished net.
+    /// Returns the finished net.
     #[must_use]
     pub fn build(self) -> Net {
         self.net

@@ -1,9 +1,9 @@
 //! Place/transition nets and their token game.
 //!
 //! A net is a tuple (P, T, F, W, m₀): places, transitions, arcs, their weights, and an initial marking. A transition is
-//! enabled if each place of its preset has as many tokens as the arc from it weighs; firing takes them, and puts as many on
-//! each place of the postset as the arc to it weighs. What a transition takes from a place and puts back at once is kept as
-//! a read arc, which under interleaving is the same.
+//! enabled if each place of its preset has at least as many tokens as the weight of the arc from it; firing takes
+//! these, and puts on each place of the postset as many as the weight of the arc to it. Self-loops, by which a
+//! transition takes tokens and puts them back, are stored as read arcs, which are equivalent under interleaving.
 //!
 //! The nets of programs are *safe*: every arc has weight 1, and no reachable marking has two tokens on a place. For these
 //! there is [`Marking`]; for any net, [`Tokens`].

@@ -1,8 +1,8 @@
-//! Names, one after another in one text: a net may have millions.
+//! The names of nodes, stored in one string, since a net may have millions.
 
 use crate::printable::{is_printable, line};
 
-/// The names of nodes, by position.
+/// Names of nodes, by position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Names {
     text: String,

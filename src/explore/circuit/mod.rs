@@ -42,7 +42,7 @@ pub(super) struct Circuit {
 /// Number of scans computed together.
 pub(super) const LANES: usize = 256;
 
-/// One bit of all lanes: the values of one node.
+/// Planes of one node: its value in all lanes.
 type Planes = [u64; LANES / 64];
 
 /// Reusable memory.

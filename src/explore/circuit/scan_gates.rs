@@ -1,4 +1,4 @@
-//! One scan as gates, for proofs about all scans at once.
+//! A scan as gates, for proofs about all scans at once.
 
 use super::compile::{Limits, NoGates, compile};
 use super::gates::{Gate, Wire};

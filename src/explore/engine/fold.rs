@@ -14,7 +14,7 @@ pub(super) struct Fold {
     /// Tables of the leaves, then of the inner nodes, children before parents.
     tables: Vec<Interner>,
     leaves: usize,
-    /// Both children of each inner node; the root is last.
+    /// Left and right child of each inner node; the root is last.
     children: Vec<(usize, usize)>,
     /// Parent of each node but the root.
     parents: Vec<usize>,

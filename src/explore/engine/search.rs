@@ -29,7 +29,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// One thread, the default budget, no states kept.
+    /// Options with one thread, the default budget, and no states kept.
     fn default() -> Self {
         Self { budget: Budget::default(), threads: 1, keep: false }
     }

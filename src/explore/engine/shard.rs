@@ -145,7 +145,7 @@ impl Shard {
         self.end - self.next
     }
 
-    /// Memory in use, in bytes; never decreases.
+    /// Memory in use in bytes, which is also the peak so far.
     pub(super) fn bytes(&self) -> u64 {
         let states = self.states.capacity() * 8 + self.vias.capacity() * 4;
         self.seen_keys.bytes() + states as u64 + self.fold.as_ref().map_or(0, Fold::bytes)

@@ -97,7 +97,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// All rules, and enough work for nets of hundreds of thousands of nodes.
+    /// Options with all rules, and enough work for nets of hundreds of thousands of nodes.
     fn default() -> Self {
         Self { rules: Rule::ALL.to_vec(), rounds: 64, work: 200_000_000 }
     }
