@@ -1,4 +1,4 @@
-//! A block: some transitions in a column, the control places to their left, every other place they touch to their right.
+//! A block: transitions in a column, control places to their left, every other place they touch to their right.
 
 use std::collections::BTreeMap;
 
@@ -14,37 +14,37 @@ const GAP: f64 = 84.0;
 const TRANSITION_PITCH: f64 = 34.0;
 /// Height of a place on the right with the room around it.
 const PLACE_PITCH: f64 = 34.0;
-/// Least distance of places on the left.
+/// Minimum distance between places on the left.
 const CONTROL_PITCH: f64 = 48.0;
 /// Room above and below the middle and the right column.
 const PADDING: f64 = 7.0;
 /// Room between a place and its name.
 pub const LABEL_GAP: f64 = 6.0;
-/// Distance of arcs at the side of a transition.
+/// Distance between arcs at the side of a transition.
 const PORT_PITCH: f64 = 8.0;
 
-/// A block, ordered but not yet placed.
+/// A block with its nodes ordered but not yet placed.
 pub struct Block<'a> {
     system: &'a System,
-    /// From top to bottom; the first at the upper edge, the last at the lower.
+    /// Places of the left column from top to bottom; the first at the upper edge, the last at the lower.
     left: Vec<PlaceId>,
     middle: Vec<TransitionId>,
     right: Vec<PlaceId>,
 }
 
-/// The widths of a block's columns.
+/// Widths of a block's columns.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Widths {
-    /// Names of the places on the left.
+    /// Width of the names of the places on the left.
     pub left: f64,
-    /// Boxes of the transitions.
+    /// Width of the transitions' boxes.
     pub middle: f64,
-    /// Names of the places on the right; 0 if there are none.
+    /// Width of the names of the places on the right; 0 if there are none.
     pub right: f64,
 }
 
 impl Widths {
-    /// Wide enough for both.
+    /// Widths large enough for both, column by column.
     pub fn max(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -53,14 +53,14 @@ impl Widths {
         }
     }
 
-    /// Where the centres of the columns are, counted from the left edge of the block.
+    /// Centres of the columns, as distances from the left edge of the block.
     fn columns(self) -> [f64; 3] {
         let left = self.left + LABEL_GAP + RADIUS;
         let middle = left + RADIUS + GAP + self.middle / 2.0;
         [left, middle, middle + self.middle / 2.0 + GAP + RADIUS]
     }
 
-    /// All of it.
+    /// Width of the whole block.
     pub fn total(self) -> f64 {
         let [_, middle, right] = self.columns();
         if self.right > 0.0 { right + RADIUS + LABEL_GAP + self.right } else { middle + self.middle / 2.0 }
@@ -95,7 +95,7 @@ impl<'a> Block<'a> {
         Self { system, left, middle, right }
     }
 
-    /// How wide its columns have to be.
+    /// Widths that the columns need.
     pub fn widths(&self) -> Widths {
         let name = |place: &PlaceId| width(self.system.net.place(*place).name);
         let widest = |widths: &mut dyn Iterator<Item = f64>| widths.fold(0.0, f64::max);
@@ -106,19 +106,19 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// The distance of its first and last place on the left.
+    /// Height of the block: the distance between the first and the last place on the left.
     pub fn height(&self) -> f64 {
         let left = CONTROL_PITCH * self.left.len().saturating_sub(1) as f64;
         let middle = TRANSITION_PITCH * self.middle.len() as f64;
         left.max(middle).max(PLACE_PITCH * self.right.len() as f64) + 2.0 * PADDING
     }
 
-    /// Whether one of its transitions has an arc from or to a place.
+    /// Whether a transition of the block has an arc from or to a place.
     pub fn touches(&self, place: PlaceId) -> bool {
         self.middle.iter().any(|&id| arcs(self.system, id).any(|(touched, _)| touched == place))
     }
 
-    /// Draws it, its upper left corner at `at`. `style` says how a place is to be drawn, if at all.
+    /// Draws the block with its upper left corner at `at`. `style` says how a place is drawn, if at all.
     pub fn draw(&self, sheet: &mut Picture, at: At, widths: Widths, style: impl Fn(PlaceId) -> Option<PlaceStyle>) {
         let net = &self.system.net;
         let height = self.height();
@@ -179,7 +179,7 @@ impl<'a> Block<'a> {
     }
 }
 
-/// What an arc does.
+/// Kind of an arc.
 #[derive(Clone, Copy)]
 enum Arc {
     Consume,
@@ -201,8 +201,8 @@ fn rim(place: At, port: At) -> At {
     At { x: place.x + dx * scale, y: place.y + dy * scale }
 }
 
-/// What stands in the box of a transition: the values under which it fires; the rest of its name says where it belongs,
-/// which is seen.
+/// Text in the box of a transition: the values under which it fires. The rest of the name says where the transition
+/// belongs, which the picture shows.
 fn caption(system: &System, id: TransitionId) -> String {
     let name = system.net.transition(id).name;
     let inside = name.split_once('[').map_or("", |(_, rest)| rest.strip_suffix(']').unwrap_or(rest));

@@ -1,15 +1,15 @@
-//! The way of the control token through a system: `idle`, the copying of each input, the lines, `End`, and back.
+//! The path of the control token through a system: `idle`, the copying of each input, the lines, `End`, and back.
 
 use petril_check::translate::{PlaceRole, System};
 use petril_net::net::{PlaceId, TransitionId};
 
-/// The control places in the order in which the token passes them where no jump is taken, counted from 0.
+/// Control places in the order in which the token passes them when no jump is taken; rows count from 0.
 pub struct Control<'a> {
     system: &'a System,
     places: Vec<PlaceId>,
-    /// For each place of the net, where it stands in the order, if control passes it.
+    /// For each place of the net, its row if it is a control place.
     rows: Vec<Option<usize>>,
-    /// For each transition of the net, where the place stands from which it takes the token, if it does.
+    /// For each transition of the net, the row of the control place that it takes the token from, if any.
     moves: Vec<Option<usize>>,
 }
 
@@ -27,33 +27,33 @@ impl<'a> Control<'a> {
         Self { system, places, rows, moves }
     }
 
-    /// How many control places there are.
+    /// Number of control places.
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
-    /// Where a place stands in the order, if control passes it.
+    /// Row of a place, if it is a control place.
     pub fn of_place(&self, place: PlaceId) -> Option<usize> {
         self.rows[place.index()]
     }
 
-    /// Where the place stands from which a transition takes the token, if it does.
+    /// Row of the control place that a transition takes the token from, if any.
     pub fn of_transition(&self, transition: TransitionId) -> Option<usize> {
         self.moves[transition.index()]
     }
 
-    /// The transitions that take the token from the place that stands there.
+    /// Transitions that take the token from the control place in a row.
     pub fn transitions(&self, row: usize) -> &[TransitionId] {
         self.system.moves(self.places[row])
     }
 
-    /// All control places in their order.
+    /// Control places in order.
     pub fn places(&self) -> &[PlaceId] {
         &self.places
     }
 }
 
-/// Orders control places: by where they are in the cycle, then by input or line, then within.
+/// Sort key of a control place: its part of the cycle, then its input or line, then its position within.
 fn key(role: PlaceRole) -> (usize, usize, PlaceRole) {
     match role {
         PlaceRole::Copy(input) | PlaceRole::Copying(input, _) => (1, input.0, role),

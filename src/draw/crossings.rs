@@ -1,27 +1,27 @@
-//! Orders two columns of nodes so that few arcs cross.
+//! Ordering of two columns of nodes so that few arcs cross.
 
-/// Columns this long are ordered by trying every order; every instruction on single bits has such.
+/// Length up to which columns are ordered by trying every permutation; instructions on single bits are within it.
 const SMALL: usize = 4;
-/// Passes over longer columns.
+/// Maximum number of passes over longer columns.
 const PASSES: usize = 8;
 
-/// Three columns of nodes, arcs between neighbouring ones. The first column stays as it is.
+/// Three columns of nodes with arcs between neighbouring columns. The first column keeps its order.
 pub struct Columns {
     /// For each node in the middle, its neighbours on the left, as positions there.
     pub left: Vec<Vec<usize>>,
     /// For each node in the middle, its neighbours on the right.
     pub right: Vec<Vec<usize>>,
-    /// How many nodes there are on the right.
+    /// Number of nodes on the right.
     pub right_count: usize,
 }
 
-/// The order of the middle and of the right column, each as the nodes from top to bottom. Where nothing decides, the nodes
-/// keep their order.
+/// Returns the order of the middle and of the right column, each as nodes from top to bottom. Ties keep the given
+/// order.
 pub fn order(columns: &Columns) -> (Vec<usize>, Vec<usize>) {
     if columns.left.len() <= SMALL && columns.right_count <= SMALL { best(columns) } else { good(columns) }
 }
 
-/// An order with as few crossings as there can be.
+/// An order with the minimum number of crossings, by exhaustive search.
 fn best(columns: &Columns) -> (Vec<usize>, Vec<usize>) {
     let rights = permutations(columns.right_count);
     let of_right = columns.seen_from_right();
@@ -41,13 +41,13 @@ fn best(columns: &Columns) -> (Vec<usize>, Vec<usize>) {
     result
 }
 
-/// An order with few crossings: each node on the right goes to the mean height of its neighbours, then neighbours change
-/// places as long as that saves a crossing.
+/// An order with few crossings: nodes on the right are sorted by the mean height of their neighbours (barycentre), then
+/// adjacent nodes are swapped as long as that saves a crossing.
 fn good(columns: &Columns) -> (Vec<usize>, Vec<usize>) {
     let mut middle: Vec<usize> = (0..columns.left.len()).collect();
     let mut right: Vec<usize> = (0..columns.right_count).collect();
     let of_right = columns.seen_from_right();
-    // Means are compared as fractions.
+    // Means are scaled by the number of nodes in the middle, then rounded down.
     right.sort_by_key(|&node| {
         let neighbours = &of_right[node];
         neighbours.iter().sum::<usize>() * columns.left.len() / neighbours.len().max(1)
@@ -93,7 +93,8 @@ fn total(order: &[usize], cost: impl Fn(usize, usize) -> usize) -> usize {
     pairs.map(|(a, b)| cost(a, b)).sum()
 }
 
-/// Swaps neighbours where that saves crossings; `cost` counts those of two nodes, the first above the second.
+/// Swaps adjacent nodes where that saves crossings; `cost` counts the crossings of two nodes, the first above the
+/// second.
 fn improve(order: &mut [usize], cost: impl Fn(usize, usize) -> usize) -> bool {
     let mut changed = false;
     for i in 1..order.len() {
@@ -105,14 +106,14 @@ fn improve(order: &mut [usize], cost: impl Fn(usize, usize) -> usize) -> bool {
     changed
 }
 
-/// How often the arcs of two nodes cross, the first above the second.
+/// Number of crossings between the arcs of two nodes, the first above the second.
 fn crossings(above: &[usize], below: &[usize], heights: Option<&[usize]>) -> usize {
     let height = |node: usize| heights.map_or(node, |heights| heights[node]);
     let lower_ends = |a: usize| below.iter().filter(|&&b| height(b) < height(a)).count();
     above.iter().map(|&a| lower_ends(a)).sum()
 }
 
-/// Every order of `0..n`, the natural one first.
+/// All permutations of `0..n`, the identity first.
 fn permutations(n: usize) -> Vec<Vec<usize>> {
     let mut all = vec![Vec::new()];
     for _ in 0..n {
@@ -129,7 +130,7 @@ fn permutations(n: usize) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// Crossings on the right side.
+    /// Number of crossings on the right side.
     fn count(columns: &Columns, (middle, right): &(Vec<usize>, Vec<usize>)) -> usize {
         let heights = heights(right);
         total(middle, |a, b| crossings(&columns.right[a], &columns.right[b], Some(&heights)))

@@ -1,4 +1,4 @@
-//! The whole system net: one block for each control place, in the columns of a newspaper.
+//! The picture of the whole system net: one block for each control place, laid out in columns like a newspaper.
 //!
 //! First the PLC's cycle and the program, from `idle` to `End`; then the plant, one block for each component; then the bits.
 //! Every place stands once as itself. Wherever an instruction touches a bit, or jumps, there is a grey copy of the place.
@@ -14,16 +14,16 @@ use petril_net::net::{PlaceId, TransitionId};
 const MARGIN: f64 = 24.0;
 /// Room between two columns.
 const GUTTER: f64 = 40.0;
-/// Room for a heading and what it is set off by.
+/// Room for a heading and the space around it.
 const HEADING: f64 = 64.0;
-/// Room between two steps that do not follow each other.
+/// Room between two steps of which the second does not follow the first.
 const BREAK: f64 = 48.0;
-/// Distance of the bits.
+/// Distance between bits.
 const BIT_PITCH: f64 = 30.0;
-/// Width of the picture for one unit of height, about.
+/// Approximate ratio of the picture's width to its height.
 const ASPECT: f64 = 1.4;
 
-/// How to read the picture.
+/// Legend of the picture.
 const LEGEND: &str = "A grey place is drawn elsewhere too. An arc that ends in a black circle reads: the token stays.";
 
 /// A piece of a column.
@@ -33,7 +33,7 @@ struct Piece<'a> {
 }
 
 enum Content<'a> {
-    /// Control place, transitions that take the token from it, and where they put it.
+    /// A control place, the transitions that take the token from it, and the places they put it on.
     Step { block: Block<'a>, own: PlaceId, next: PlaceId, text: String },
     /// A component of the plant.
     Component(Block<'a>),
@@ -51,7 +51,7 @@ pub fn diagram(system: &System) -> Picture {
     sheet(system, &pieces, &title)
 }
 
-/// Draws the PLC's cycle, and each component of the plant, without titles in the pictures: all but the program.
+/// Draws everything but the program: the PLC's cycle and each component of the plant, without titles in the pictures.
 #[must_use]
 pub fn surroundings(system: &System) -> Vec<Picture> {
     let end = system.program.end();
@@ -64,7 +64,7 @@ pub fn surroundings(system: &System) -> Vec<Picture> {
     pictures
 }
 
-/// Draws the subnet of a line of flat code that control passes in several steps.
+/// Draws the subnet of a line of flat code that takes several steps.
 pub fn line(system: &System, line: usize, title: &str) -> Picture {
     let is_in_line = |role| match role {
         PlaceRole::Line(own) | PlaceRole::Within(own, _) | PlaceRole::Hazard(own, _) => own == line,
@@ -73,7 +73,7 @@ pub fn line(system: &System, line: usize, title: &str) -> Picture {
     sheet(system, &steps(system, is_in_line), title)
 }
 
-/// Pieces in columns, below a title and a legend.
+/// Draws pieces in columns, below a title and a legend.
 fn sheet(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
     let mut sheet = Picture::default();
     sheet.text(At { x: MARGIN, y: MARGIN }, Anchor::Start, title, true);
@@ -83,14 +83,14 @@ fn sheet(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
     sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
 }
 
-/// The same with neither in the picture.
+/// Draws pieces in columns without a title or a legend in the picture.
 fn untitled(system: &System, pieces: &[Piece<'_>], title: &str) -> Picture {
     let mut sheet = Picture::default();
     let (right, bottom) = fill(system, &mut sheet, pieces, MARGIN + RADIUS);
     sheet.finish(right + MARGIN, bottom + RADIUS + MARGIN, title)
 }
 
-/// Draws pieces in columns, and says where they end on the right and below.
+/// Draws pieces in columns, and returns their right and lower edge.
 fn fill(system: &System, sheet: &mut Picture, pieces: &[Piece<'_>], top: f64) -> (f64, f64) {
     let (mut x, mut bottom) = (MARGIN, top);
     for column in columns(system, pieces) {
@@ -107,7 +107,7 @@ fn fill(system: &System, sheet: &mut Picture, pieces: &[Piece<'_>], top: f64) ->
     (x - GUTTER, bottom)
 }
 
-/// The wanted control places in their order, each with what happens there.
+/// Steps of the wanted control places, in order.
 fn steps(system: &System, wanted: impl Fn(PlaceRole) -> bool) -> Vec<Piece<'_>> {
     let control = Control::of(system);
     let places = control.places();
@@ -192,12 +192,12 @@ impl Piece<'_> {
         self.heading.map_or(0.0, |_| HEADING) + content
     }
 
-    /// Whether it is the step that begins at a control place.
+    /// Whether the piece is the step that begins at a control place.
     fn is_step_of(&self, place: PlaceId) -> bool {
         matches!(&self.content, Content::Step { own, .. } if *own == place)
     }
 
-    /// Whether both are steps, and the token does not go from it to the one below.
+    /// Whether both pieces are steps and the token does not go from this one to the one below.
     fn ends_before(&self, below: &Self) -> bool {
         match (&self.content, &below.content) {
             (Content::Step { next, .. }, Content::Step { .. }) => !below.is_step_of(*next),
@@ -213,7 +213,7 @@ impl Piece<'_> {
         }
     }
 
-    /// Draws it; `below` is the next piece of the column.
+    /// Draws the piece; `below` is the next piece of the column.
     fn draw(&self, system: &System, sheet: &mut Picture, mut at: At, widths: Widths, below: Option<&Piece<'_>>) {
         if let Some(heading) = self.heading {
             sheet.text(At { x: at.x, y: at.y + 38.0 }, Anchor::Start, heading, true);

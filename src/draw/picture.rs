@@ -1,26 +1,26 @@
-//! A picture of a net as data: where each shape stands. [`Picture::svg`] makes a file of it; a page can make tokens move on it.
+//! A picture of a net as data: the position of each shape. [`Picture::svg`] writes SVG; a page can move tokens on it.
 
 use petril_net::net::{PlaceId, TransitionId};
 
 /// A position on the sheet: x to the right, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct At {
-    /// To the right.
+    /// Distance to the right, in pixels.
     pub x: f64,
-    /// Down.
+    /// Distance down, in pixels.
     pub y: f64,
 }
 
-/// How a place is drawn.
+/// Style of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceStyle {
-    /// White.
+    /// White: the place itself.
     Own,
-    /// Grey: the same place is drawn elsewhere too.
+    /// Grey: a copy of a place that is drawn elsewhere too.
     Copy,
 }
 
-/// How an arc ends.
+/// Head of an arc.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Head {
     /// An arrow.
@@ -29,75 +29,75 @@ pub enum Head {
     Dot,
 }
 
-/// On which side of its anchor a text stands.
+/// Alignment of a text to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Begins there.
+    /// The text begins at its position.
     Start,
-    /// Is centred there.
+    /// The text is centred at its position.
     Middle,
-    /// Ends there.
+    /// The text ends at its position.
     End,
 }
 
-/// A circle of radius [`RADIUS`](super::RADIUS).
+/// A drawn place: a circle of radius [`RADIUS`](super::RADIUS).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnPlace {
     /// The place.
     pub place: PlaceId,
-    /// Its centre.
+    /// Centre.
     pub at: At,
-    /// How it is drawn.
+    /// Style.
     pub style: PlaceStyle,
-    /// Whether it is marked at the beginning.
+    /// Whether the place is marked initially.
     pub marked: bool,
 }
 
-/// A box as high as [`BOX_HEIGHT`](super::BOX_HEIGHT).
+/// A drawn transition: a box of height [`BOX_HEIGHT`](super::BOX_HEIGHT).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnTransition {
     /// The transition.
     pub transition: TransitionId,
-    /// Its centre.
+    /// Centre.
     pub at: At,
-    /// How wide it is.
+    /// Width in pixels.
     pub width: f64,
 }
 
-/// A straight line.
+/// A drawn arc: a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnArc {
-    /// The transition it belongs to.
+    /// The transition at one end of the arc.
     pub transition: TransitionId,
-    /// Where it begins.
+    /// Start point.
     pub from: At,
-    /// Where it ends.
+    /// End point.
     pub to: At,
-    /// How it ends.
+    /// Head at the end point.
     pub head: Head,
 }
 
-/// A text, vertically centred.
+/// A drawn text, vertically centred.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnText {
     /// The text.
     pub text: String,
-    /// Where it stands.
+    /// Position.
     pub at: At,
-    /// Which side of it stands there.
+    /// Alignment to the position.
     pub anchor: Anchor,
-    /// Whether it is set off.
+    /// Whether the text is bold.
     pub strong: bool,
 }
 
-/// A picture.
+/// A picture of a net: its shapes with their positions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
-    /// How wide it is.
+    /// Width in pixels.
     pub width: f64,
-    /// How high it is.
+    /// Height in pixels.
     pub height: f64,
-    /// What it shows, for those who cannot see it.
+    /// Description of the picture for those who cannot see it.
     pub title: String,
     /// The places.
     pub places: Vec<DrawnPlace>,

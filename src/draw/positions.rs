@@ -1,21 +1,21 @@
-//! One position for each node of a system net, for tools that show nets and do not place them.
+//! Positions of the nodes of a system net, for tools that show nets and have no layout of their own.
 //!
-//! The control places stand in the first column in the order in which the token passes them; half a row below each stand the
-//! transitions that take the token there. On the right come the bits, one a row, and then the plant, one component
+//! Control places stand in the first column in the order in which the token passes them; the transitions that take the
+//! token from each stand half a row below it. To the right come the bits, one per row, then the plant, one component
 //! below the other.
 
 use super::control::Control;
 use petril_check::translate::{PlaceRole, System, TransitionRole};
 use petril_net::format::pnml::{Point, Positions};
 
-/// Distance of neighbouring columns.
+/// Distance between neighbouring columns.
 const COLUMN: i32 = 140;
-/// Distance of neighbouring rows.
+/// Distance between neighbouring rows.
 const ROW: i32 = 100;
-/// Distance of the first node from both edges.
+/// Distance between the first node and both edges.
 const MARGIN: i32 = 60;
 
-/// Places the nodes of a system.
+    /// Places the nodes of a system.
 #[must_use]
 pub fn positions(system: &System) -> Positions {
     let control = Control::of(system);
@@ -29,7 +29,7 @@ pub fn positions(system: &System) -> Positions {
     let places = system.net.place_ids().zip(&system.places).map(|(place, &role)| match role {
         PlaceRole::Result { bit, value } => point(bits + usize::from(value), 2 * bit as usize),
         PlaceRole::Bit { value, .. } | PlaceRole::Register { value, .. } => {
-            // The two places of a bit follow each other.
+                // The two places of a bit follow each other.
             pairs += usize::from(!value);
             point(bits + usize::from(value), 2 * (pairs - 1))
         }
@@ -56,13 +56,13 @@ pub fn positions(system: &System) -> Positions {
     Positions { places: places.collect(), transitions: transitions.collect() }
 }
 
-/// The row in which each component of the plant begins.
+/// First row of each component of the plant.
 fn component_tops(system: &System) -> Vec<usize> {
     let heights = system.plant.components.iter().map(|c| c.places.len().max(c.transitions.len()) + 1);
     heights.scan(0, |top, height| Some(std::mem::replace(top, *top + height))).collect()
 }
 
-/// A node in a column and half row.
+/// The point of a column and a half row.
 fn point(column: usize, half_row: usize) -> Point {
     Point { x: MARGIN + COLUMN * column as i32, y: MARGIN + ROW / 2 * half_row as i32 }
 }

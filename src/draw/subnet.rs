@@ -1,4 +1,4 @@
-//! The subnet of one instruction.
+//! The picture of the subnet of one instruction.
 
 use super::block::Block;
 use super::diagram;

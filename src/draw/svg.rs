@@ -16,15 +16,15 @@ pub const RADIUS: f64 = 12.0;
 pub const BOX_HEIGHT: f64 = 24.0;
 /// Radius of a token.
 const TOKEN: f64 = 4.5;
-/// Size of the letters.
+/// Font size.
 const FONT: f64 = 11.0;
-/// Width of a letter; the widest of the usual monospaced fonts has 0.61 of their size.
+/// Width of a letter; in the widest of the usual monospaced fonts a letter is 0.61 of the font size wide.
 const LETTER: f64 = 6.8;
 
-/// Width of a text, as it is written.
+/// Width of a text as written.
 pub fn width(text: &str) -> f64 {
     let text = printable::line(text);
-    // Scripts without a Latin look mostly take two columns.
+    // Most characters from U+1100 on take two columns.
     text.chars().map(|c| if c < '\u{1100}' { LETTER } else { 2.0 * LETTER }).sum()
 }
 
@@ -47,12 +47,12 @@ impl Picture {
         }
     }
 
-    /// The finished picture; `title` is for those who cannot see it.
+    /// Returns the finished picture; `title` is for those who cannot see it.
     pub(super) fn finish(self, width: f64, height: f64, title: &str) -> Self {
         Self { width, height, title: title.to_owned(), ..self }
     }
 
-    /// The picture as a file.
+    /// Returns the picture as an SVG file.
     #[must_use]
     pub fn svg(&self) -> String {
         let Self { width, height, .. } = *self;

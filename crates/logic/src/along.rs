@@ -1,14 +1,15 @@
-//! What holds along one run, whatever else there is.
+//! Evaluation of formulas along one run.
 
 use super::bound::Bound;
 use super::dag::{Dag, Node, NodeId};
 use super::formula::Quantifier;
 
-/// For each node of a [`Dag`], whether it holds at each position of a run of `length` states. The last state steps back to the one
-/// at `loop_start`; without a loop the run goes on in a way that is not known, and a node holds only if it does in any case.
+/// Evaluates each node of a [`Dag`] at each position of a run of `length` states. The last state steps back to the one
+/// at `loop_start`; without a loop the continuation is unknown, and a node holds only if it does for every
+/// continuation.
 ///
-/// What is claimed of some path from a position is looked for on this one alone. `holds` says whether a formula about one state
-/// holds at a position, `everywhere` whether a node about all paths does, which no run can show.
+/// Nodes under E are evaluated on this run alone. `holds` says whether a state formula holds at a position,
+/// `everywhere` whether a node under A does, which no run can show.
 #[must_use]
 pub fn along(
     dag: &Dag,
@@ -37,11 +38,11 @@ pub fn along(
     truths
 }
 
-/// Where the first holds until the second does; `for_ever` if the second need not come.
+/// Evaluates U, or W if `for_ever`, at each position.
 fn until(hold: &[bool], release: &[bool], loop_start: Option<usize>, for_ever: bool) -> Vec<bool> {
     let mut truths = vec![false; hold.len()];
     let mut next = loop_start.is_some() && for_ever;
-    // The second time, what holds at the beginning of the loop is known.
+    // In the second pass, the value at the beginning of the loop is known.
     for _ in 0..2 {
         for at in (0..hold.len()).rev() {
             truths[at] = release[at] || (hold[at] && next);
@@ -56,7 +57,7 @@ fn until(hold: &[bool], release: &[bool], loop_start: Option<usize>, for_ever: b
 mod tests {
     use super::until;
 
-    /// Positions as digits: 1 where it holds.
+    /// Result as digits, one for each position: 1 if the formula holds.
     fn shown(hold: &str, release: &str, loop_start: Option<usize>, for_ever: bool) -> String {
         let bits = |text: &str| text.chars().map(|c| c == '1').collect::<Vec<_>>();
         until(&bits(hold), &bits(release), loop_start, for_ever)

@@ -1,5 +1,5 @@
-//! Formulas to bound formulas: what is truth and what is number. What each name means, a vocabulary says: that of a program
-//! in one of its views, or that of a net alone.
+//! Binding: formulas to bound formulas, with truth values and numbers distinguished. A vocabulary gives names their
+//! meaning: that of a program in one of its views, or that of a net alone.
 
 use std::sync::Arc;
 
@@ -27,27 +27,28 @@ pub fn bind_names(formula: &Formula, vocabulary: &dyn Vocabulary) -> Result<Boun
     if binder.errors.is_empty() { Ok(bound) } else { Err(binder.errors) }
 }
 
-/// What the names of formulas mean.
+/// Meaning of the names in formulas.
 pub trait Vocabulary {
-    /// A name that must be a truth value.
+    /// Binds a name that must be a truth value.
     fn truth(&self, name: &Name<'_>) -> Result<Bound, Diagnostic>;
-    /// A name that must be a number; a truth value counts as 0 or 1.
+    /// Binds a name that must be a number; a truth value counts as 0 or 1.
     fn number(&self, name: &Name<'_>) -> Result<Term, Diagnostic>;
-    /// A name that means nothing by itself, but a value of the variable it is compared with.
+    /// Binds a name that is a value of the enumerated variable with which it is compared.
     fn enumerated(&self, value: &str, variable: &str) -> Option<i128>;
-    /// Where control is.
+    /// Binds a position of control.
     fn control(&self, spot: Spot, span: Span) -> Result<Bound, Diagnostic>;
-    /// A place of the net.
+    /// Binds a place of the net.
     fn place(&self, name: &Name<'_>) -> Result<PlaceId, Diagnostic>;
-    /// A transition of the net.
+    /// Binds a transition of the net.
     fn transition(&self, name: &Name<'_>) -> Result<TransitionId, Diagnostic>;
-    /// Whether states are ends of scans, so that there are scans before and after; else why there is nothing to speak of.
+    /// Returns the scan time if states are ends of scans, so that formulas can refer to other scans; otherwise the
+    /// error.
     fn scans(&self, span: Span) -> Result<ScanTime, Diagnostic>;
     /// The inputs of the program as numbers.
     fn inputs(&self) -> Vec<Term>;
     /// The outputs of the program as numbers.
     fn outputs(&self) -> Vec<Term>;
-    /// That no transition is enabled.
+    /// Binds the atom that no transition is enabled.
     fn deadlock(&self, span: Span) -> Result<Bound, Diagnostic>;
 }
 
@@ -58,7 +59,7 @@ pub struct Name<'f> {
     pub text: &'f str,
     /// Where it stands.
     pub span: Span,
-    /// Number of errors in the formula before it.
+    /// Number of errors in the formula before the name.
     pub errors: usize,
 }
 
@@ -75,7 +76,7 @@ impl Name<'_> {
 #[derive(Clone, Copy)]
 pub struct ScanTime(pub u64);
 
-/// Where control can be; a line is counted from 1.
+/// A position of control; lines are counted from 1.
 #[derive(Clone, Copy)]
 pub enum Spot {
     /// A line of flat code.
@@ -92,13 +93,13 @@ struct Binder<'v> {
 }
 
 impl Binder<'_> {
-    /// Reports, and gives a formula to go on with.
+    /// Records an error, and returns a formula to continue with.
     fn error(&mut self, diagnostic: Diagnostic) -> Bound {
         self.errors.push(diagnostic);
         Bound::Truth(false)
     }
 
-    /// What was bound; if nothing, why not is reported.
+    /// Returns a bound formula, or records the error.
     fn bound(&mut self, result: Result<Bound, Diagnostic>) -> Bound {
         result.unwrap_or_else(|diagnostic| self.error(diagnostic))
     }
@@ -107,7 +108,7 @@ impl Binder<'_> {
         Name { text, span, errors: self.errors.len() }
     }
 
-    /// A formula that must be true or false.
+    /// Binds a formula that must be a truth value.
     fn truth(&mut self, formula: &Formula) -> Bound {
         let (vocabulary, span) = (self.vocabulary, formula.span);
         let mut two = |f: &Formula, g: &Formula| (Box::new(self.truth(f)), Box::new(self.truth(g)));
@@ -191,7 +192,7 @@ impl Binder<'_> {
         Bound::Ltl(Box::new(path.map(&mut |f| self.atom(f))))
     }
 
-    /// A formula within one about paths, which must be about one state.
+    /// Binds an atom of a path formula, which must be a state formula.
     fn atom(&mut self, formula: &Formula) -> Bound {
         let atom = self.truth(formula);
         if atom.is_state_formula() {
@@ -200,7 +201,7 @@ impl Binder<'_> {
         self.error(of_ctl(formula.span))
     }
 
-    /// A formula that must be a number; a truth value counts as 0 or 1.
+    /// Binds a formula that must be a number; a truth value counts as 0 or 1.
     fn number(&mut self, formula: &Formula) -> Term {
         let (vocabulary, span) = (self.vocabulary, formula.span);
         let mut two = |a: &Formula, b: &Formula| (Box::new(self.number(a)), Box::new(self.number(b)));
@@ -234,12 +235,12 @@ impl Binder<'_> {
         }
     }
 
-    /// The same of a number.
+    /// Returns a bound term, or records the error.
     fn term(&mut self, result: Result<Term, Diagnostic>) -> Term {
         result.unwrap_or_else(|diagnostic| Term::Truth(Box::new(self.error(diagnostic))))
     }
 
-    /// A name that is no variable, but a value of the enumerated variable it is compared with.
+    /// Binds a name that is not a variable, but a value of the enumerated variable with which it is compared.
     fn enumerated(&self, value: &Formula, variable: &Formula) -> Option<Term> {
         match (&value.expression, &variable.expression) {
             (Expression::Name(value), Expression::Name(variable)) => {

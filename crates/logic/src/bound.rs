@@ -1,4 +1,4 @@
-//! Formulas whose names mean something: variables, places, transitions.
+//! Bound formulas: their atoms are variables, places and transitions.
 
 use std::sync::Arc;
 
@@ -8,12 +8,12 @@ use super::past::Past;
 use petril_base::{PlaceId, TransitionId};
 use petril_base::{Type, VarId};
 
-/// A formula over the states of one view. `F` and `G` are written as untils: `F g` = `TRUE U g`, `G f` = `f W FALSE`.
+/// A bound formula over the states of one view. F and G are represented by untils: `F g = TRUE U g`, `G f = f W FALSE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// A constant.
     Truth(bool),
-    /// The variable, a `BOOL`, is TRUE.
+    /// The variable, of type `BOOL`, is TRUE.
     Variable(VarId),
     /// A bit of the variable, counted from 0, is 1.
     Bit(VarId, u32),
@@ -23,7 +23,7 @@ pub enum Bound {
     Enabled(TransitionId),
     /// No transition is enabled.
     Deadlock,
-    /// Two numbers compare so.
+    /// Comparison of two numbers.
     Compare(Comparison, Term, Term),
     /// Negation.
     Not(Box<Bound>),
@@ -35,42 +35,42 @@ pub enum Bound {
     Implies(Box<Bound>, Box<Bound>),
     /// Equivalence.
     Iff(Box<Bound>, Box<Bound>),
-    /// In the next state, on all paths or on some.
+    /// AX or EX: true in the next state.
     Next(Quantifier, Box<Bound>),
-    /// The first holds until the second does, on all paths or on some.
+    /// Until: AU, EU, AW or EW.
     Until {
-        /// On all paths or on some.
+        /// Path quantifier.
         quantifier: Quantifier,
-        /// The second need not come if the first holds for ever.
+        /// Whether the until is weak (W): `release` need not become true if `hold` is true for ever.
         weak: bool,
-        /// The first.
+        /// Formula that must be true until `release` is.
         hold: Box<Bound>,
-        /// The second.
+        /// Formula that ends the until.
         release: Box<Bound>,
     },
-    /// A formula about every path. It is no part of another formula.
+    /// LTL formula about all paths. Never a part of another formula.
     Ltl(Box<Path<Bound>>),
 }
 
-/// A number that depends on the state.
+/// A term: a number that depends on the state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Term {
     /// A constant.
     Number(i128),
-    /// The number a variable holds.
+    /// Value of a variable as a number.
     Variable(VarId, Type),
-    /// The same in the transition view, where each bit of the variable is a place.
+    /// Value of a variable in the transition view, where each of its bits is a place.
     Bits {
         /// The variable.
         variable: VarId,
-        /// The places that are marked while a bit is 1, each with what the bit counts.
+        /// Places that are marked if a bit is 1, each with the weight of the bit.
         places: Vec<(PlaceId, i128)>,
     },
-    /// How many tokens the place holds.
+    /// Number of tokens on the place.
     Tokens(PlaceId),
-    /// What is known of earlier scans; a truth value counts as 0 or 1.
+    /// Term about the past; a truth value counts as 0 or 1.
     Past(Arc<Past>),
-    /// 1 if the formula, which is not temporal, holds; else 0.
+    /// 1 if the state formula is true, else 0.
     Truth(Box<Bound>),
     /// Sum.
     Sum(Box<Term>, Box<Term>),
@@ -80,24 +80,24 @@ pub enum Term {
     Product(Box<Term>, Box<Term>),
 }
 
-/// What a state says of the atoms.
+/// Valuation of atoms and terms in a state.
 pub trait Valuation {
-    /// The value of a variable, as a pattern of its type.
+    /// Value of a variable, as a bit pattern of its type.
     fn value(&self, variable: VarId) -> u64;
-    /// What is known of earlier scans. Who knows nothing of them is never asked.
+    /// Value of a term about the past. Never called on valuations without a past.
     fn past(&self, past: &Past) -> i128 {
         debug_assert!(false, "nothing is remembered here: {past:?}");
         0
     }
-    /// Whether a place is marked. No place is where states are ends of scans, unless they say so.
+    /// Whether a place is marked. False by default, for states that are ends of scans.
     fn is_marked(&self, _: PlaceId) -> bool {
         false
     }
-    /// How many tokens a place holds.
+    /// Number of tokens on a place.
     fn tokens(&self, place: PlaceId) -> u64 {
         u64::from(self.is_marked(place))
     }
-    /// Whether a transition is enabled. None is where states are ends of scans.
+    /// Whether a transition is enabled. False by default, for states that are ends of scans.
     fn is_enabled(&self, _: TransitionId) -> bool {
         false
     }
@@ -108,7 +108,7 @@ pub trait Valuation {
 }
 
 impl Bound {
-    /// Whether it speaks of one state only.
+    /// Whether the formula is a state formula, without temporal operators.
     #[must_use]
     pub fn is_state_formula(&self) -> bool {
         match self {
@@ -127,7 +127,7 @@ impl Bound {
         }
     }
 
-    /// f, if this is EF f.
+    /// Returns f if the formula is EF f.
     #[must_use]
     pub fn possibility(&self) -> Option<&Self> {
         match self {
@@ -138,7 +138,7 @@ impl Bound {
         }
     }
 
-    /// Shows every place whose tokens it speaks of, as often as it does.
+    /// Calls `visit` with every place whose tokens occur in the formula, once for each occurrence.
     pub fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
         match self {
             Self::Truth(_) | Self::Variable(_) | Self::Bit(..) | Self::Enabled(_) | Self::Deadlock => {}
@@ -160,7 +160,7 @@ impl Bound {
         }
     }
 
-    /// Whether it holds in a state. `None` if one state does not tell, since a part that matters is temporal.
+    /// Evaluates the formula in a state. `None` if the result depends on a temporal part.
     pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
         Some(match self {
             Self::Truth(value) => *value,
@@ -181,7 +181,7 @@ impl Bound {
 }
 
 impl Term {
-    /// The number in a state. `None` if one state does not tell, since a part is temporal.
+    /// Evaluates the term in a state. `None` if a part is temporal.
     pub fn value_in(&self, state: &impl Valuation) -> Option<i128> {
         Some(match self {
             Self::Number(number) => *number,
@@ -211,7 +211,7 @@ impl Term {
         }
     }
 
-    /// A bound of its absolute value; `None` if it is beyond what `i128` holds, with room for one more operation.
+    /// Upper bound on the absolute value; `None` if an `i128` has no room for one more operation on it.
     #[must_use]
     pub fn magnitude(&self) -> Option<u128> {
         let sum = match self {

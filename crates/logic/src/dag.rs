@@ -1,56 +1,55 @@
-//! Bound formulas in negation normal form, with shared parts: what labelling works on.
+//! Bound formulas in negation normal form, with shared subformulas, for labelling.
 //!
 //! Six temporal operators remain, X, U and W under A and E, since `¬E[f U g] = A[¬g W (¬f ∧ ¬g)]` and
-//! `¬E[f W g] = A[¬g U (¬f ∧ ¬g)]`, and likewise with A and E exchanged. The duplication this makes costs nothing where the
-//! parts are shared.
+//! `¬E[f W g] = A[¬g U (¬f ∧ ¬g)]`, and likewise with A and E exchanged. Sharing avoids the duplication of subformulas.
 
 use std::collections::BTreeMap;
 
 use super::bound::Bound;
 use super::formula::Quantifier;
 
-/// A node, as a position in its [`Dag`].
+/// Identifier of a node: its position in the [`Dag`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NodeId(usize);
 
 impl NodeId {
-    /// The position.
+    /// Position in the [`Dag`].
     #[must_use]
     pub fn index(self) -> usize {
         self.0
     }
 }
 
-/// A formula in negation normal form; its parts are nodes.
+/// Node: a formula in negation normal form whose subformulas are nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Node {
-    /// A formula about one state, or its negation.
+    /// State formula or its negation.
     State {
-        /// The formula.
+        /// State formula.
         formula: Bound,
-        /// Whether its negation is meant.
+        /// Whether the node is the negation of the formula.
         negated: bool,
     },
     /// Conjunction.
     And(NodeId, NodeId),
     /// Disjunction.
     Or(NodeId, NodeId),
-    /// X.
+    /// AX or EX.
     Next(Quantifier, NodeId),
-    /// U.
+    /// AU or EU.
     Until(Quantifier, NodeId, NodeId),
-    /// W.
+    /// AW or EW (weak until).
     WeakUntil(Quantifier, NodeId, NodeId),
 }
 
-/// Formulas that share their parts. The parts of a node come before it.
+/// Formulas with shared subformulas, as a directed acyclic graph in topological order: subformulas come first.
 #[derive(Clone, Debug, Default)]
 pub struct Dag {
     nodes: Vec<Node>,
 }
 
 impl Node {
-    /// The formula about one state that this is made of, if it is.
+    /// The state formula of the node, if it has one.
     #[must_use]
     pub fn state(&self) -> Option<&Bound> {
         match self {
@@ -73,24 +72,24 @@ impl Dag {
         }
     }
 
-    /// The nodes; [`NodeId`] is the position.
+    /// All nodes, indexed by [`NodeId`].
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// All nodes by their numbers, parts before what they are parts of.
+    /// Identifiers of all nodes, subformulas first.
     pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
         (0..self.nodes.len()).map(NodeId)
     }
 
-    /// A node.
+    /// The node of an identifier.
     #[must_use]
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0]
     }
 
-    /// Whether a part of a node is about all paths from some state, which no run can show.
+    /// Whether a subformula is universal (about all paths), so that no single run can show it.
     #[must_use]
     pub fn is_universal(&self, id: NodeId) -> bool {
         match *self.node(id) {
@@ -103,7 +102,7 @@ impl Dag {
         }
     }
 
-    /// The formula that a node stands for.
+    /// Returns the node as a formula.
     #[must_use]
     pub fn formula(&self, id: NodeId) -> Bound {
         let part = |id: &NodeId| Box::new(self.formula(*id));
@@ -128,7 +127,7 @@ impl Dag {
     }
 }
 
-/// Adds the parts of one formula, each once: a part is known by its address, which does not change meanwhile.
+/// Adds the subformulas of one formula, each once. They are identified by address, which does not change meanwhile.
 struct Builder<'d> {
     dag: &'d mut Dag,
     known: BTreeMap<(*const Bound, bool), NodeId>,

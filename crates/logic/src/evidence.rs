@@ -1,6 +1,6 @@
-//! Why a node holds in a state: a path or lasso as short as can be, as far as one path can say it.
+//! Evidence that a node holds in a state: a shortest path or lasso, if a single path can show it.
 //!
-//! What holds on some path is shown by that path; what holds on all paths is only stated, at the state where it does.
+//! A node under E is shown by a path; a node under A is only claimed, at the state where it holds.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -14,34 +14,35 @@ use super::label::Labels;
 use super::lasso::lasso;
 use petril_search::Graph;
 
-/// A path through the graph, and what holds along it.
+/// A path through the graph, with the nodes claimed along it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Evidence {
-    /// The states of the path.
+    /// States of the path.
     pub states: Vec<u32>,
-    /// For a lasso, the position to which the last state steps back.
+    /// Position to which the last state steps back, for a lasso.
     pub loop_start: Option<usize>,
-    /// What the path is to show, in the order of the path.
+    /// Claims in the order of the path.
     pub claims: Vec<Claim>,
 }
 
-/// A node holds at a position of the path.
+/// Claim that a node holds at a position of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Claim {
     /// Position in [`Evidence::states`].
     pub position: usize,
-    /// The node.
+    /// Node that holds.
     pub node: NodeId,
 }
 
 /// Cost of a state where the node does not hold.
 const NEVER: u32 = u32::MAX;
 
-/// The evidence for a node at that one of the states which needs the fewest steps; `None` if it holds in none of them.
+/// Finds evidence for a node in the one of some states that needs the fewest steps; `None` if the node holds in none of
+/// them.
 ///
-/// The number of steps is the smallest possible where a finite path shows the node. A lasso has a shortest stem to a cycle,
-/// and a shortest cycle from there. Of a conjunction of two temporal parts the longer one is followed. Under fairness, a
-/// finite path leads to a state from which a path counts.
+/// The number of steps is minimal if a finite path shows the node. A lasso has a shortest stem to a cycle, and a
+/// shortest cycle from there. Of a conjunction of two temporal nodes the longer one is followed. Under fairness, a
+/// finite path leads to a state from which there is a fair path.
 #[must_use]
 pub fn evidence(
     graph: &Graph,
@@ -65,7 +66,7 @@ struct Explainer<'a> {
     dag: &'a Dag,
     labels: &'a Labels,
     fairness: Option<&'a Fairness>,
-    /// For each node asked for, the steps that evidence takes from each state.
+    /// For each node needed, the number of steps of the evidence from each state.
     costs: BTreeMap<NodeId, Rc<Vec<u32>>>,
     evidence: Evidence,
 }
@@ -91,7 +92,7 @@ impl Explainer<'_> {
             }
             Node::Until(Quantifier::Some, f, g) => self.distances(f, g),
             Node::WeakUntil(Quantifier::Some, f, g) => {
-                // A lasso is for ever: it counts as nothing.
+                // A lasso is infinite: its steps are not counted.
                 let mut costs = self.distances(f, g);
                 self.labels
                     .of(id)
@@ -112,13 +113,13 @@ impl Explainer<'_> {
         costs
     }
 
-    /// The cost of a state that a path is to come to: no path that counts comes to a state from which none does.
+    /// Cost of a state as the target of a path: a fair path never reaches a state without fair paths.
     fn unless_unfair(&self, state: u32, costs: &[u32]) -> u32 {
         let counts = self.fairness.is_none_or(|fairness| fairness.surely().contains(state as usize));
         if counts { costs[state as usize] } else { NEVER }
     }
 
-    /// Steps from each state through states with f to a state with g, and on with the evidence for g.
+    /// Number of steps from each state through states with f to a state with g, plus the evidence for g.
     fn distances(&mut self, f: NodeId, g: NodeId) -> Vec<u32> {
         let hold = self.labels.of(f);
         let goal = self.cost(g);
@@ -142,7 +143,7 @@ impl Explainer<'_> {
                     continue;
                 }
                 for &row in self.graph.rows_to(state) {
-                    // States come nearest first, so a row is reached first from its nearest.
+                    // States are processed nearest first, so a row is first reached from its nearest target.
                     if reached.put(row as usize) {
                         continue;
                     }
@@ -159,7 +160,7 @@ impl Explainer<'_> {
         distances
     }
 
-    /// Whether a node speaks of one state only, so that explaining it takes no step.
+    /// Whether a node is about one state only, so that explaining it takes no step.
     fn is_local(&self, id: NodeId) -> bool {
         match *self.dag.node(id) {
             Node::State { .. } => true,
@@ -173,12 +174,12 @@ impl Explainer<'_> {
         self.evidence.claims.push(Claim { position, node });
     }
 
-    /// Shows a node, which holds at the last state of the path.
+    /// Extends the path to show a node that holds at its last state.
     fn explain(&mut self, id: NodeId, state: u32) {
         let s = state as usize;
         match *self.dag.node(id) {
             Node::And(f, g) => {
-                // One run can show one temporal part; the other one is only claimed.
+                // One run can show one temporal node; the other one is only claimed.
                 let follow_g = !self.is_local(g) && (self.is_local(f) || self.cost(g)[s] > self.cost(f)[s]);
                 let (followed, other) = if follow_g { (g, f) } else { (f, g) };
                 if self.is_local(other) {
@@ -208,7 +209,7 @@ impl Explainer<'_> {
         }
     }
 
-    /// Goes through states with f to the state where g is shown.
+    /// Extends the path through states with f to a state where g is shown.
     fn follow(&mut self, f: NodeId, g: NodeId, mut state: u32) {
         let distances = self.distances(f, g);
         let goal = self.cost(g);
@@ -223,7 +224,7 @@ impl Explainer<'_> {
         self.explain(g, state);
     }
 
-    /// Goes through states with f round a cycle, or to where paths end.
+    /// Extends the path through states with f by a lasso, or to a state without steps.
     fn lasso(&mut self, f: NodeId, state: u32) {
         let constraints = self.fairness.map(Fairness::constraints);
         let Some(lasso) = lasso(self.graph, self.labels.of(f), constraints, state) else { return };
@@ -233,7 +234,7 @@ impl Explainer<'_> {
         self.evidence.loop_start = lasso.loop_start.map(|start| knot + start);
     }
 
-    /// Appends states to the path, all with f.
+    /// Appends states to the path, claiming f in each.
     fn walk(&mut self, f: NodeId, states: &[u32]) {
         for &state in states {
             self.evidence.states.push(state);

@@ -1,9 +1,9 @@
-//! Which paths count: those that come again and again to some sets of states (weak fairness), and to one set if they come
-//! again and again to another (strong fairness). A path that ends counts always.
+//! Fair paths: those that visit some sets of states infinitely often (weak fairness), and one set if they visit another
+//! infinitely often (strong fairness). A finite path that ends is always fair.
 //!
-//! What a path does only finitely often makes no difference, so the paths that count are those into a strongly connected part
-//! that meets every constraint (Emerson and Lei 1987). A part that has states of a premise and none of its goal is looked
-//! through once more without the premise.
+//! Finite prefixes make no difference, so fair paths are those into a strongly connected component that satisfies every
+//! constraint (Emerson and Lei 1987). A component with states of a premise and none of its goal is searched again
+//! without the states of the premise.
 
 mod assumed;
 
@@ -16,16 +16,17 @@ use fixedbitset::FixedBitSet;
 use super::label::leading_to;
 use petril_search::{Components, Graph, components};
 
-/// Constraints on the paths of one graph, as sets of its states.
+/// Fairness constraints on the paths of a graph, as sets of its states.
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
-    /// Paths come to each of these again and again.
+    /// Weak constraints: sets that fair paths visit infinitely often.
     pub weak: Vec<FixedBitSet>,
-    /// Paths that come to the first again and again come so to the second.
+    /// Strong constraints (premise, goal): fair paths that visit the premise infinitely often also visit the goal
+    /// infinitely often.
     pub strong: Vec<(FixedBitSet, FixedBitSet)>,
 }
 
-/// Constraints on the paths of one graph, and where paths that meet them begin.
+/// Fairness constraints on the paths of a graph, and the states from which fair paths begin.
 #[derive(Clone, Debug)]
 pub struct Fairness {
     constraints: Constraints,
@@ -34,7 +35,7 @@ pub struct Fairness {
 }
 
 impl Fairness {
-    /// The paths of a graph that meet all constraints count.
+    /// Computes the states of a graph from which there are paths that satisfy all constraints.
     #[must_use]
     pub fn on(graph: &Graph, constraints: Constraints) -> Self {
         let mut all = FixedBitSet::with_capacity(graph.len());
@@ -50,19 +51,19 @@ impl Fairness {
         Self { constraints, surely, possibly }
     }
 
-    /// The constraints.
+    /// Fairness constraints.
     #[must_use]
     pub fn constraints(&self) -> &Constraints {
         &self.constraints
     }
 
-    /// The states from which a path counts, whatever the missing steps are.
+    /// States from which there is a fair path, whatever the missing steps are.
     #[must_use]
     pub fn surely(&self) -> &FixedBitSet {
         &self.surely
     }
 
-    /// The states from which a path may count. On a complete graph they are the same.
+    /// States from which there may be a fair path. On a complete graph the same as [`Self::surely`].
     #[must_use]
     pub fn possibly(&self) -> &FixedBitSet {
         &self.possibly
@@ -70,14 +71,14 @@ impl Fairness {
 }
 
 impl Constraints {
-    /// The goals that going round these states for ever owes.
+    /// Goals of strong constraints that a cycle through these states violates.
     pub(super) fn owed(&self, round: &[u32]) -> impl Iterator<Item = &FixedBitSet> {
         let met = |set: &FixedBitSet| round.iter().any(|&state| set.contains(state as usize));
         let owed = self.strong.iter().filter(move |(premise, goal)| met(premise) && !met(goal));
         owed.map(|(_, goal)| goal)
     }
 
-    /// The states of the strongly connected parts inside a set in which a path can go round for ever and meet everything.
+    /// States of the strongly connected components within a set that contain a fair infinite path.
     pub(super) fn rounds(&self, graph: &Graph, within: &FixedBitSet) -> FixedBitSet {
         let mut found = FixedBitSet::with_capacity(graph.len());
         let mut rest = within.clone();
@@ -85,7 +86,7 @@ impl Constraints {
             let parts = components(graph, &rest);
             let mut good = parts.cyclic.clone();
             self.weak.iter().for_each(|set| good.intersect_with(&visited(&parts, &rest, set)));
-            // Parts with a premise and without its goal; and the states of such premises.
+            // Components with a premise and without its goal, and the states of these premises.
             let mut owing = FixedBitSet::with_capacity(parts.count);
             let mut left_out = FixedBitSet::with_capacity(graph.len());
             for (premise, goal) in &self.strong {
@@ -114,15 +115,15 @@ impl Constraints {
     }
 }
 
-/// The parts of `within` that have a state of a set.
+/// Components of `within` that contain a state of a set.
 fn visited(parts: &Components, within: &FixedBitSet, set: &FixedBitSet) -> FixedBitSet {
     let mut visited = FixedBitSet::with_capacity(parts.count);
     within.intersection(set).for_each(|state| visited.insert(parts.of[state] as usize));
     visited
 }
 
-/// The states in which a path that stays in `within` can go round for ever, meeting what is asked for, and those where paths
-/// end. In the graph of these states alone, the strongly connected parts are those that the rounds go through.
+/// States on fair cycles that stay in `within`, and states of it in which paths end. In the subgraph of these states
+/// alone, the strongly connected components are those of the fair cycles.
 pub(super) fn endings(graph: &Graph, within: &FixedBitSet, constraints: Option<&Constraints>) -> FixedBitSet {
     let mut endings = match constraints {
         Some(constraints) => constraints.rounds(graph, within),

@@ -1,114 +1,114 @@
-//! Formulas as they are written, before their names mean anything.
+//! Formulas as written, not yet bound.
 
 use super::ltl::Path;
 use petril_base::source::Span;
 
-/// A formula or a part of one, and where it stands.
+/// A formula, or a part of one, with its span.
 #[derive(Clone, Debug)]
 pub struct Formula {
-    /// What it says.
+    /// Operator and operands.
     pub expression: Expression,
-    /// Where it stands.
+    /// Position in the text.
     pub span: Span,
 }
 
-/// What a formula says. Truth values and numbers are not told apart yet.
+/// Expression of a formula. Truth values and numbers are not distinguished yet.
 #[derive(Clone, Debug)]
 pub enum Expression {
-    /// `TRUE`, `FALSE`
+    /// Truth constant: `TRUE` or `FALSE`.
     Truth(bool),
     /// A number, of at most 64 bits.
     Number(i128),
     /// A variable.
     Name(String),
-    /// `at line 12`, the line counted from 1 as `petril flat` prints it.
+    /// `at line 12`: control is at the line, counted from 1 as `petril flat` prints it.
     AtLine(usize),
-    /// `at idle`
+    /// `at idle`: the PLC is idle.
     AtIdle,
-    /// `at End`
+    /// `at End`: control is at the end of the program.
     AtEnd,
     /// `at deadlock`: no transition is enabled.
     Deadlock,
-    /// `at first scan`: no scan came before this one.
+    /// `at first scan`: there was no earlier scan.
     FirstScan,
-    /// Some input has another value than at the end of the scan before.
+    /// Some input has changed since the end of the previous scan.
     InputChanges,
-    /// Some output has.
+    /// Some output has changed since the end of the previous scan.
     OutputChanges,
-    /// `pre(f)` and its like: about this scan and those before it.
+    /// Past operator, like `pre(f)`: about this scan and earlier ones.
     Past(Past, Vec<Formula>),
-    /// `held(f, t)`: f is true, and was at the ends of all scans in the time t before.
+    /// `held(f, t)`: f is true, and was at the ends of all scans in the preceding time t.
     Held(Box<Formula>, Duration),
-    /// `f within t`: f is true now, or will be at the end of one of the scans in the time t that comes.
+    /// `f within t`: f is true now, or will be at the end of a scan in the following time t.
     Within(Box<Formula>, Duration),
-    /// Always, if the first is true, the second is true within the time.
+    /// `response(f, g, t)`: whenever f is true, g is true within the time t.
     Response(Box<Formula>, Box<Formula>, Duration),
-    /// `marked("place")`
+    /// `marked("place")`: the place is marked.
     Marked(String),
-    /// `tokens("place")`: how many tokens the place holds.
+    /// `tokens("place")`: number of tokens on the place.
     Tokens(String),
-    /// `enabled("transition")`
+    /// `enabled("transition")`: the transition is enabled.
     Enabled(String),
-    /// `!f`
+    /// Negation `!f`.
     Not(Box<Formula>),
-    /// `f & g`
+    /// Conjunction `f & g`.
     And(Box<Formula>, Box<Formula>),
-    /// `f | g`
+    /// Disjunction `f | g`.
     Or(Box<Formula>, Box<Formula>),
-    /// `f -> g`
+    /// Implication `f -> g`.
     Implies(Box<Formula>, Box<Formula>),
-    /// `f <-> g`
+    /// Equivalence `f <-> g`.
     Iff(Box<Formula>, Box<Formula>),
-    /// `a < b` and its like.
+    /// Comparison, like `a < b`.
     Compare(Comparison, Box<Formula>, Box<Formula>),
-    /// `a + b`
+    /// Sum `a + b`.
     Sum(Box<Formula>, Box<Formula>),
-    /// `a - b`
+    /// Difference `a - b`.
     Difference(Box<Formula>, Box<Formula>),
-    /// `a * b`
+    /// Product `a * b`.
     Product(Box<Formula>, Box<Formula>),
-    /// `AG f` and its like.
+    /// Temporal operator with one operand, like `AG f`.
     Temporal(Quantifier, Temporal, Box<Formula>),
-    /// `A[f U g]`, `E[f U g]`, and with W if `weak`.
+    /// Until: `A[f U g]` or `E[f U g]`, and with W if `weak`.
     Until {
-        /// On all paths or on some.
+        /// Path quantifier.
         quantifier: Quantifier,
-        /// g need not come if f holds for ever.
+        /// Whether g need not become true if f is true for ever (W).
         weak: bool,
-        /// f
+        /// Operand f.
         hold: Box<Formula>,
-        /// g
+        /// Operand g.
         release: Box<Formula>,
     },
-    /// `LTL …`: a formula about every path. It is no part of another formula.
+    /// `LTL …`: LTL formula about all paths. Never a part of another formula.
     Ltl(Box<Path<Formula>>),
 }
 
-/// The operators that look back.
+/// Past operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Past {
-    /// `pre(f)`: what f was at the end of the scan before; in the first scan, at power-on.
+    /// `pre(f)`: value of f at the end of the previous scan; in the first scan, at power-on.
     Pre,
-    /// `rising(f)`: f is true and was not before.
+    /// `rising(f)`: rising edge: f is true and was not at the end of the previous scan.
     Rising,
-    /// `falling(f)`: f was true before and is not.
+    /// `falling(f)`: falling edge: f is not true and was at the end of the previous scan.
     Falling,
-    /// `changed(f)`: f has another value than before.
+    /// `changed(f)`: the value of f differs from that at the end of the previous scan.
     Changed,
-    /// `once(f)`: f is true, or was at the end of some scan.
+    /// `once(f)`: f is true, or was at the end of some earlier scan.
     Once,
-    /// `so_far(f)`: f is true, and was at the ends of all scans.
+    /// `so_far(f)`: f is true, and was at the ends of all earlier scans.
     SoFar,
-    /// `since(f, g)`: g is or was true, and f has been true ever since.
+    /// `since(f, g)`: g is true, or was at the end of some earlier scan, and f has been true ever since.
     Since,
 }
 
 impl Past {
-    /// All of them.
+    /// All past operators.
     pub const ALL: [Self; 7] =
         [Self::Pre, Self::Rising, Self::Falling, Self::Changed, Self::Once, Self::SoFar, Self::Since];
 
-    /// As it is written.
+    /// Name of the operator in formulas.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -122,42 +122,42 @@ impl Past {
         }
     }
 
-    /// How many formulas it takes.
+    /// Number of operands.
     #[must_use]
     pub fn arity(self) -> usize {
         if self == Self::Since { 2 } else { 1 }
     }
 }
 
-/// How long, and where that stands.
+/// A duration with its span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Duration {
-    /// In scans, or in milliseconds.
+    /// Length in scans or in milliseconds.
     pub amount: Amount,
-    /// Where it stands.
+    /// Position in the text.
     pub span: Span,
 }
 
-/// A number of scans, or of milliseconds.
+/// Length of a duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Amount {
-    /// Scans.
+    /// Number of scans.
     Scans(u32),
-    /// Milliseconds.
+    /// Time in milliseconds.
     Milliseconds(u64),
 }
 
-/// On all paths, or on some path.
+/// Path quantifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantifier {
-    /// A
+    /// A: on all paths.
     All,
-    /// E
+    /// E: on some path.
     Some,
 }
 
 impl Quantifier {
-    /// The other one.
+    /// The dual quantifier.
     #[must_use]
     pub fn dual(self) -> Self {
         match self {
@@ -167,7 +167,7 @@ impl Quantifier {
     }
 }
 
-/// When along a path.
+/// Temporal operator with one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Temporal {
     /// X: in the next state.
@@ -178,7 +178,7 @@ pub enum Temporal {
     Globally,
 }
 
-/// The comparisons of numbers.
+/// Comparison operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "named by their signs")]
 pub enum Comparison {
@@ -191,7 +191,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// Whether two numbers compare so.
+    /// Evaluates the comparison.
     #[must_use]
     pub fn holds(self, left: i128, right: i128) -> bool {
         match self {

@@ -1,11 +1,11 @@
-//! Which states satisfy which node, by the classical fixpoints on sets of states (Clarke, Emerson and Sistla 1986).
+//! Labelling: the states that satisfy each node, by the classical CTL fixpoints (Clarke, Emerson and Sistla 1986).
 //!
-//! A path ends only in a state without steps; there X g is true under A and false under E, and W needs nothing more. Where a
-//! graph is not complete, a state is in a set only if the node holds whatever the missing steps are. So a formula holds if
-//! the initial states are in its set, is violated if one of them is in the set of its negation, and is undecided otherwise.
+//! A path ends only in a state without steps; there AX g is true and EX g is false, and W is satisfied. If a graph is
+//! not complete, a state is in a set only if the node holds whatever the missing steps are. So a formula holds if the
+//! initial states are in its set, is violated if one of them is in the set of its negation, and is undecided otherwise.
 //!
-//! Under fairness, E says that there is a path that counts, so a finite path must lead to a state from which one does; A says
-//! nothing of the others. A formula about one state means the same as ever.
+//! Under fairness, E and A quantify over fair paths. So a finite witness must lead to a state from which there is a
+//! fair path. State formulas are unaffected.
 
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,20 +20,20 @@ use super::formula::Quantifier;
 use super::sweep::grow;
 use petril_search::Graph;
 
-/// The states that satisfy each node of a [`Dag`].
+/// Labelling of a graph: the states that satisfy each node of a [`Dag`].
 pub struct Labels {
     sets: Vec<FixedBitSet>,
 }
 
 impl Labels {
-    /// The states that satisfy a node.
+    /// States that satisfy a node.
     #[must_use]
     pub fn of(&self, node: NodeId) -> &FixedBitSet {
         &self.sets[node.index()]
     }
 }
 
-/// Labels every node. `holds` evaluates a formula about one state in a state. With `fairness`, only paths that meet it count.
+/// Labels every node. `holds` evaluates a state formula in a state. With `fairness`, quantifiers range over fair paths.
 pub fn label(
     graph: &Graph,
     dag: &Dag,
@@ -44,7 +44,7 @@ pub fn label(
     label_until(graph, dag, holds, fairness, &never).unwrap_or(Labels { sets: Vec::new() })
 }
 
-/// As [`label`]. Nothing if `stopping` is set meanwhile.
+/// Labels every node as [`label`] does. `None` if `stopping` is set meanwhile.
 pub fn label_until(
     graph: &Graph,
     dag: &Dag,
@@ -58,8 +58,8 @@ pub fn label_until(
     (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
 }
 
-/// As [`label`] on all paths, where `holding` gives the states in which a formula about one state holds, or its negation if the
-/// second argument says so. Nothing if `stopping` is set meanwhile.
+/// Labels every node as [`label`] does, without fairness; `holding` gives the states in which a state formula holds, or
+/// its negation if the second argument is true. `None` if `stopping` is set meanwhile.
 pub fn label_from(
     graph: &Graph,
     dag: &Dag,
@@ -71,7 +71,8 @@ pub fn label_from(
     (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
 }
 
-/// The states from which a path leads to a set, as far as steps are known. If `stopping` is set meanwhile, some may be missing.
+/// States from which known steps lead to a set (backward reachability). If `stopping` is set meanwhile, some may be
+/// missing.
 #[must_use]
 pub fn leading_to(graph: &Graph, set: &FixedBitSet, stopping: &AtomicBool) -> FixedBitSet {
     let mut all = FixedBitSet::with_capacity(graph.len());
@@ -83,7 +84,7 @@ struct Labeller<'a> {
     graph: &'a Graph,
     open: &'a FixedBitSet,
     fairness: Option<&'a Fairness>,
-    /// Once it is set, nobody wants the sets any more.
+    /// Cancellation flag: once set, the results are not used.
     stopping: &'a AtomicBool,
 }
 
@@ -109,7 +110,7 @@ impl Labeller<'_> {
         }
     }
 
-    /// The rows that satisfy a test.
+    /// Rows that satisfy a test.
     fn rows_where(&self, test: impl Fn(&[u32]) -> bool + Sync) -> FixedBitSet {
         set_where(self.graph.rows(), |row| test(self.graph.row(row)))
     }
@@ -131,7 +132,7 @@ impl Labeller<'_> {
         set_where(self.graph.len(), |state| !self.open.contains(state as usize) && all(state))
     }
 
-    /// The states of a set from which a path counts.
+    /// States of a set from which there is a fair path.
     fn that_count<'s>(&self, set: &'s FixedBitSet) -> Cow<'s, FixedBitSet> {
         self.fairness.map_or(Cow::Borrowed(set), |fairness| Cow::Owned(set & fairness.surely()))
     }
@@ -140,13 +141,14 @@ impl Labeller<'_> {
         self.way(f, &self.that_count(g))
     }
 
-    /// The states from which known steps lead through states with f to a state with g, whether a path goes on there or not.
+    /// States from which known steps lead through states with f to a state with g, whether or not a fair path continues
+    /// there.
     fn way(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
         let some = |set: &FixedBitSet, row: &[u32]| row.iter().any(|&next| set.contains(next as usize));
         grow(self.graph, g.clone(), f, self.stopping, &|set, state| some(set, self.graph.successors(state)))
     }
 
-    /// Adds the states of `within` whose steps all lead into the set, at least one of which there is; and it need not be known.
+    /// Adds the states of `within` all of whose known steps lead into the set, and which have a step, known or unknown.
     fn forced(&self, set: FixedBitSet, within: &FixedBitSet) -> FixedBitSet {
         grow(self.graph, set, within, self.stopping, &|set, state| {
             let row = self.graph.successors(state);
@@ -162,7 +164,7 @@ impl Labeller<'_> {
         complement(&self.way(&not_g, &bad))
     }
 
-    /// The states without f and g from which a path may count. An unknown step is as bad as one to such a state.
+    /// States without f and g from which there may be a fair path. An unknown step counts as one to such a state.
     fn bad(&self, f: &FixedBitSet, g: &FixedBitSet, not_g: &FixedBitSet) -> FixedBitSet {
         let mut bad = complement(&(f | g));
         if let Some(fairness) = self.fairness {
@@ -187,12 +189,12 @@ impl Labeller<'_> {
 
     fn exists_weak_until(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
         if self.fairness.is_some() {
-            // E[f W g] = E[f U g ∨ "f on a path that counts and never leaves f"].
+            // E[f W g] = E[f U (g ∨ E G f)], with E over fair paths.
             let mut goal = endings(self.graph, f, self.fairness.map(Fairness::constraints));
             goal.union_with(&self.that_count(g));
             return self.way(f, &goal);
         }
-        // The states that are not in it: without f and g, or with f and no way but to such states.
+        // Complement: states without f and g, or with f and steps only to such states.
         let neither = complement(&(f | g));
         let mut within = f.clone();
         within.difference_with(g);
@@ -206,7 +208,7 @@ fn complement(set: &FixedBitSet) -> FixedBitSet {
     complement
 }
 
-/// The numbers below `n` that satisfy a test, computed on all processors.
+/// Set of the numbers below `n` that satisfy a test, computed on all processors.
 fn set_where(n: usize, test: impl Fn(u32) -> bool + Sync) -> FixedBitSet {
     const BITS: usize = usize::BITS as usize;
     let block = |first: usize| {

@@ -1,4 +1,4 @@
-//! Paths without end, as a way to a cycle and the cycle.
+//! Lassos: infinite paths made of a stem and a cycle.
 
 use fixedbitset::FixedBitSet;
 use rustc_hash::FxHashMap;
@@ -6,16 +6,16 @@ use rustc_hash::FxHashMap;
 use super::fairness::{Constraints, endings};
 use petril_search::{Graph, components};
 
-/// A path without end, or one that ends where no step is left.
+/// A lasso, or a path that ends in a state without steps.
 pub struct Lasso {
-    /// Its states without the first one.
+    /// States without the first one.
     pub states: Vec<u32>,
-    /// How many steps lead to the state that the last one steps back to.
+    /// Number of steps to the state to which the last one steps back.
     pub loop_start: Option<usize>,
 }
 
-/// A path inside a set that goes round a cycle (and meets what is asked for), or to where paths end: a shortest way there, and
-/// a cycle from there, which is a shortest one if nothing is asked for.
+/// Finds a lasso inside a set that satisfies the constraints, or a path to a state without steps: a shortest stem, and
+/// a cycle, which is a shortest one if there are no constraints.
 pub(super) fn lasso(
     graph: &Graph,
     within: &FixedBitSet,
@@ -30,10 +30,10 @@ pub(super) fn lasso(
     Some(Lasso { states, loop_start })
 }
 
-/// A lasso from one of the [`endings`] that stays in its part of them.
+/// Finds a lasso from one of the [`endings`] within its strongly connected component.
 ///
-/// It walks to a nearest state of a set that is still to be met, as long as there is one, and then back to a state of the walk
-/// behind which all were met.
+/// The path goes to a nearest state of a set not yet visited, as long as there is one, and then back to a state of the
+/// path after which all sets were visited.
 pub(super) fn round(
     graph: &Graph,
     endings: &FixedBitSet,
@@ -57,7 +57,7 @@ pub(super) fn round(
             walk.extend(shortest(graph, at, &inside, false, is_missing)?);
             continue;
         }
-        // Behind this position all have been met; going back to it repeats the least.
+        // All sets are visited from this position on; stepping back to it repeats the fewest states.
         let latest = wanted.iter().filter_map(|set| last_visit(set)).min().unwrap_or(walk.len() - 1);
         let back = match graph.successors(at).contains(&walk[latest]) {
             true => vec![walk[latest]],
@@ -75,11 +75,11 @@ pub(super) fn round(
     }
 }
 
-/// States that [`near_lasso`] goes through.
+/// Maximum number of states that [`near_lasso`] searches.
 const NEAR: usize = 10_000;
 
-/// A lasso on all paths, in a set whose every state has a step to another one of the set, or none at all: one that comes
-/// back to a state on the shortest way to its own end, if there is one among the nearest states, else any.
+/// Finds a lasso in a set whose every state has a step into the set, or no step at all: one whose last state steps back
+/// to a state on the shortest path to it, if there is one among the nearest states, otherwise any.
 #[must_use]
 pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
     let mut parents: FxHashMap<u32, (u32, usize)> = FxHashMap::from_iter([(state, (state, 0))]);
@@ -112,7 +112,7 @@ pub fn near_lasso(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Las
     wandering(graph, within, state)
 }
 
-/// The path that always goes on to the state with the least number, which is seldom far from the initial one.
+/// Path that always steps to the state with the smallest number, which is seldom far from the initial one.
 fn wandering(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
     let mut positions: FxHashMap<u32, usize> = FxHashMap::from_iter([(state, 0)]);
     let mut states = vec![state];
@@ -130,8 +130,8 @@ fn wandering(graph: &Graph, within: &FixedBitSet, state: u32) -> Option<Lasso> {
     }
 }
 
-/// A shortest path inside a set to a state that satisfies `goal`, without its first state. With `leave`, the first state does
-/// not count as there already.
+/// Finds a shortest path inside a set to a state that satisfies `goal`; returns it without the first state. With
+/// `leave`, the path has at least one step.
 #[must_use]
 pub fn shortest(
     graph: &Graph,

@@ -1,11 +1,12 @@
-//! Requirements: formulas of CTL and LTL over program variables, or over places and transitions, and their truth on a graph.
+//! Requirements: CTL and LTL formulas over program variables, or over places and transitions, and their evaluation on a
+//! graph.
 //!
 //! ```text
 //! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
 //!                                     └──ltl──▶ an automaton beside the graph ──search─────────────────▲
 //! ```
 //!
-//! Under fairness only some paths count: see [`Fairness`].
+//! Under fairness, only fair paths are considered: see [`Fairness`].
 
 mod along;
 mod bind;

@@ -1,11 +1,11 @@
-//! Literals of IEC 61131-3 in formulas and domains: `-5`, `1_000`, `16#FF`, `INT#-5`, `BYTE#16#0F`, `T#1s500ms`.
+//! IEC 61131-3 literals in formulas and domains: `-5`, `1_000`, `16#FF`, `INT#-5`, `BYTE#16#0F`, `T#1s500ms`.
 
 use petril_base::{Kind, Type};
 
-/// The number a literal stands for; a time counts its milliseconds.
+/// Value of a literal; a time in milliseconds.
 ///
 /// # Errors
-/// What is wrong with it, as a sentence.
+/// Message that says what is wrong with the literal.
 pub fn number(text: &str) -> Result<i128, String> {
     let no_number = || format!("`{text}` is no number");
     let too_large = || "this number is too large".to_owned();
@@ -32,7 +32,7 @@ pub fn number(text: &str) -> Result<i128, String> {
     if fits { Ok(number) } else { Err(too_large()) }
 }
 
-/// The literal of a time whose `T#` may have been left out.
+/// Time literal with its `T#`, which may have been left out.
 #[must_use]
 pub fn time(text: &str) -> String {
     if text.contains('#') { text.to_owned() } else { format!("T#{text}") }
@@ -42,7 +42,7 @@ fn is_digits(text: &str) -> bool {
     text.trim_start_matches('-').bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// `-5`, `1_000`, `16#FF`.
+/// Value of an untyped literal: `-5`, `1_000`, `16#FF`.
 fn plain(text: &str) -> Option<i128> {
     let (negative, digits) = match text.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -62,7 +62,8 @@ fn plain(text: &str) -> Option<i128> {
     Some(if negative { -number } else { number })
 }
 
-/// `1s500ms`, `-5ms`, `1.5s`, `1h_30m`: units from the largest to the smallest, only the last of them with a fraction.
+/// Milliseconds of a duration: `1s500ms`, `-5ms`, `1.5s`, `1h_30m`. Units come from the largest to the smallest, and
+/// only the last may have a fraction.
 fn duration(text: &str) -> Option<i128> {
     let (negative, mut rest) = text.strip_prefix('-').map_or((false, text), |rest| (true, rest));
     let units: [(&str, i128); 5] = [("d", 86_400_000), ("h", 3_600_000), ("ms", 1), ("m", 60_000), ("s", 1000)];

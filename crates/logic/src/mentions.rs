@@ -1,4 +1,4 @@
-//! What a formula mentions: variables, and numbers they are compared with.
+//! Variables of a formula, and the numbers in it.
 
 use std::collections::BTreeSet;
 
@@ -6,17 +6,17 @@ use super::bound::{Bound, Term};
 use super::past::Past;
 use petril_base::VarId;
 
-/// The variables and numbers of a formula bound for the scan view.
+/// Variables and numbers of a formula bound for the scan view.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Mentions {
-    /// The variables.
+    /// Variables of the formula.
     pub variables: BTreeSet<VarId>,
-    /// The numbers.
+    /// Numbers in the formula.
     pub numbers: BTreeSet<i128>,
 }
 
 impl Bound {
-    /// What it mentions.
+    /// Collects the variables and numbers of the formula.
     #[must_use]
     pub fn mentions(&self) -> Mentions {
         let mut mentions = Mentions::default();

@@ -1,4 +1,4 @@
-//! Single formulas and requirement files: text to [`Formula`].
+//! Parser of formulas and requirement files: text to [`Formula`].
 
 use std::sync::LazyLock;
 
@@ -34,52 +34,53 @@ pub use patterns::Body;
 #[grammar = "../../grammar/requirement.pest"]
 struct RequirementParser;
 
-/// A formula may have this many parts. Those people write have tens; the limit keeps all that walks them within its stack.
+/// Maximum number of parts of a formula. Formulas written by hand have tens; the limit bounds the stack of recursive
+/// functions.
 const MAX_PARTS: usize = 1000;
 
-/// A requirement as it was written.
+/// A requirement as written, not yet bound.
 #[derive(Clone, Debug)]
 pub struct Requirement {
-    /// Its name, unique among those checked together.
+    /// Name, unique among the requirements checked together.
     pub name: String,
-    /// What it says in the words of its author.
+    /// Description by the author.
     pub sentence: Option<String>,
-    /// What it says in the words of its pattern, if it is one.
+    /// Sentence of the pattern, if the requirement is one.
     pub words: Option<String>,
-    /// What else its author says of it: `safety: SF1`, `severity: high`.
+    /// Tags by the author: `safety: SF1`, `severity: high`.
     pub tags: Vec<Tag>,
-    /// What it asks for.
+    /// Content of the requirement.
     pub body: Body,
-    /// The same as it was written, on one line.
+    /// Content as written, on one line.
     pub text: String,
-    /// Where its name stands, or the formula if it has none.
+    /// Span of the name, or of the formula if there is none.
     pub span: Span,
-    /// The same for people.
+    /// Position as file, line and column.
     pub origin: Origin,
 }
 
-/// A word about a requirement, with a value or without: `severity: high`, `startup`.
+/// Tag of a requirement, with or without a value: `severity: high`, `startup`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tag {
-    /// The word.
+    /// Name of the tag.
     pub name: String,
-    /// Its value.
+    /// Value of the tag, if there is one.
     pub value: Option<String>,
 }
 
-/// Where something stands: a file, and a line and column counted from 1.
+/// Position as file, line and column.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
-    /// The name of the file, or of what stands for one.
+    /// Name of the file, or of what the text came from.
     pub file: String,
-    /// The line.
+    /// Line, counted from 1.
     pub line: usize,
-    /// The column.
+    /// Column, counted from 1.
     pub column: usize,
 }
 
 impl Origin {
-    /// Where a span of a source begins.
+    /// Start of a span in a source.
     #[must_use]
     pub fn of(span: Span, source: &Source) -> Self {
         let (line, column) = source.line_column(span.start);
@@ -87,10 +88,10 @@ impl Origin {
     }
 }
 
-/// Reads a text that is one formula, pattern or sentence, which becomes the requirement of that name.
+/// Parses a text that is one formula, pattern or sentence, as the requirement with a name.
 ///
 /// # Errors
-/// What keeps the text from being one.
+/// The syntax error.
 pub fn parse_requirement(name: &str, source: &Source) -> Result<Requirement, Diagnostic> {
     let pair = lone(source, Rule::lone_body, Rule::body)?;
     let (span, text) = (span(&pair), one_line(pair.as_str()));
@@ -99,15 +100,15 @@ pub fn parse_requirement(name: &str, source: &Source) -> Result<Requirement, Dia
     Ok(Requirement { name: name.to_owned(), sentence: None, words, tags: Vec::new(), body, text, span, origin })
 }
 
-/// Reads a text that is one formula.
+/// Parses a text that is one formula.
 ///
 /// # Errors
-/// What keeps the text from being a formula.
+/// The syntax error.
 pub fn parse_formula(source: &Source) -> Result<Formula, Diagnostic> {
     checked_formula(lone(source, Rule::lone_formula, Rule::formula)?)
 }
 
-/// The first pair of a rule in a text that is all of another one.
+/// Parses a text by the rule `whole`, and returns the first pair of the rule `part`.
 fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diagnostic> {
     let text = source.text();
     let pairs = RequirementParser::parse(whole, text).map_err(|error| {
@@ -131,7 +132,7 @@ fn lone(source: &Source, whole: Rule, part: Rule) -> Result<Pair<'_, Rule>, Diag
     parts.next().ok_or_else(|| Diagnostic::new(Code::RequirementSyntax, Span::default(), "there is no formula"))
 }
 
-/// The formula of a pair of the rule `formula`, `list_item`, `ltl` or `path`, unless it is too large.
+/// Converts a pair of the rule `formula`, `list_item`, `ltl` or `path` to a formula, unless it is too large.
 fn checked_formula(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     if pair.clone().into_inner().flatten().take(MAX_PARTS + 1).count() > MAX_PARTS {
         let message = format!("this formula has more than {MAX_PARTS} parts");
@@ -176,7 +177,7 @@ fn formula(pairs: Pairs<'_, Rule>) -> Result<Formula, Diagnostic> {
         .parse(pairs)
 }
 
-/// Refuses the parts of a formula if they do not say what their author means, or nothing at all.
+/// Rejects chained comparisons and unsupported operators among the parts of a formula.
 fn unambiguous(mut pairs: Pairs<'_, Rule>) -> Result<(), Diagnostic> {
     if let Some(operator) = pairs.clone().find(|part| part.as_rule() == Rule::unfit) {
         let message = format!("there is no operator `{}` in formulas", operator.as_str());
@@ -195,13 +196,13 @@ fn unambiguous(mut pairs: Pairs<'_, Rule>) -> Result<(), Diagnostic> {
     }
 }
 
-/// The error that a comparison follows another one.
+/// Makes the error that a comparison follows another one.
 pub fn two_comparisons(code: Code, second: Span) -> Diagnostic {
     Diagnostic::new(code, second, "two comparisons follow each other")
         .help("write `a = b & b = c`, or put one of them in parentheses: `(a = b) = c` compares the truth of `a = b` with `c`")
 }
 
-/// Two formulas with an operator between them.
+/// Combines two formulas by an infix operator.
 fn joined(left: Formula, operator: Rule, right: Formula) -> Formula {
     let span = left.span.to(right.span);
     let (left, right) = (Box::new(left), Box::new(right));
@@ -225,7 +226,7 @@ fn joined(left: Formula, operator: Rule, right: Formula) -> Formula {
     Formula { expression, span }
 }
 
-/// The first part of a pair that is of a rule.
+/// Finds the first part of a pair that is of a rule.
 fn part<'i>(pair: &Pair<'i, Rule>, rule: Rule) -> Option<Pair<'i, Rule>> {
     pair.clone().into_inner().find(|part| part.as_rule() == rule)
 }
@@ -234,7 +235,7 @@ fn missing(span: Span) -> Diagnostic {
     Diagnostic::new(Code::RequirementSyntax, span, "something is missing here")
 }
 
-/// `3 scans`, `T#500ms`, `500ms`
+/// Parses a duration: `3 scans`, `T#500ms`, `500ms`.
 fn duration(pair: &Pair<'_, Rule>) -> Result<Duration, Diagnostic> {
     let span = span(pair);
     let text = pair.as_str();
@@ -308,7 +309,7 @@ fn primary(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     Ok(Formula { expression, span })
 }
 
-/// The error that nothing was put into a place of a pattern: `{1}`.
+/// Makes the error that a placeholder of a pattern, like `{1}`, was not replaced.
 fn hole(group: &Pair<'_, Rule>) -> Option<Diagnostic> {
     let inside = group.as_str().strip_prefix('{')?.strip_suffix('}')?.trim();
     let is_hole = !inside.is_empty() && inside.bytes().all(|byte| byte.is_ascii_digit());
@@ -319,7 +320,7 @@ fn hole(group: &Pair<'_, Rule>) -> Option<Diagnostic> {
     })
 }
 
-/// `exactly one of (a, b)`: the number of those that are true.
+/// Parses a count of true formulas, like `exactly one of (a, b)`.
 fn among(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     let place = span(&pair);
     let (mut comparison, mut sum) = (Comparison::Equal, None);
@@ -341,7 +342,7 @@ fn among(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     Ok(Expression::Compare(comparison, Box::new(sum.ok_or_else(|| missing(place))?), Box::new(one)))
 }
 
-/// `pre(f)`, `since(f, g)`
+/// Parses a past operator, like `pre(f)` or `since(f, g)`.
 fn call(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     let place = span(&pair);
     let mut parts = pair.into_inner();
@@ -369,12 +370,12 @@ fn call(pair: Pair<'_, Rule>) -> Result<Expression, Diagnostic> {
     Ok(Expression::Past(past, arguments))
 }
 
-/// The name of a variable, spelt as flat code does: `a[1,2]`.
+/// Name of a variable as flat code spells it: `a[1,2]`.
 fn name_of(pair: &Pair<'_, Rule>) -> String {
     pair.as_str().split_whitespace().collect()
 }
 
-/// The number a literal stands for.
+/// Value of a literal.
 fn constant(pair: &Pair<'_, Rule>) -> Result<i128, Diagnostic> {
     let text = pair.as_str();
     if pair.as_rule() == Rule::truth {
@@ -386,7 +387,7 @@ fn constant(pair: &Pair<'_, Rule>) -> Result<i128, Diagnostic> {
     })
 }
 
-/// Whether a literal is one of type `BOOL`, like `BOOL#1`.
+/// Whether a literal is of type `BOOL`, like `BOOL#1`.
 fn is_truth(literal: &str) -> bool {
     literal.split_once('#').is_some_and(|(ty, _)| ty.eq_ignore_ascii_case("BOOL"))
 }
@@ -428,7 +429,7 @@ fn span(pair: &Pair<'_, Rule>) -> Span {
     Span::new(start, start + pair.as_str().trim_end().len())
 }
 
-/// The text with every run of white space as one blank.
+/// Text with every run of white space replaced by one blank.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,57 +1,58 @@
-//! What a formula knows of the scans before: terms about the past, and what has to be remembered for them.
+//! Terms about the past, and the memory needed to evaluate them.
 //!
-//! A *memory* has one number for each such term. The memory of a state follows from a *message*, which is made of the state before
-//! and its memory, and from the state itself. Before the first scan there is power-on, with the initial values of the variables.
+//! A *memory* has one number for each term about the past. The memory of a state follows from a *message*, made of the
+//! previous state and its memory, and from the state itself. Before the first scan there is power-on, with the initial
+//! values of the variables.
 
 use std::sync::Arc;
 
 use super::bound::{Bound, Term, Valuation};
 
-/// A term about the scans so far, with no temporal part.
+/// Term about the scans so far, without temporal operators.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Past {
     /// 1 in the first scan, else 0.
     First,
-    /// The value of the term at the end of the scan before; in the first scan, its value at power-on.
+    /// Value of the term at the end of the previous scan; in the first scan, its value at power-on.
     Before(Term),
-    /// 1 if the second is or was true and the first has been true ever since, else 0.
+    /// 1 if the second formula is or was true and the first has been true ever since, else 0.
     Since(Bound, Bound),
-    /// For how many scans in a row the formula has been true, this one included; `most` at most.
+    /// Number of consecutive scans for which the formula has been true, including this one; at most `most`.
     Run {
-        /// The formula.
+        /// Formula counted.
         of: Bound,
-        /// What the number does not exceed.
+        /// Upper bound of the count.
         most: u32,
     },
 }
 
 impl Past {
-    /// A bound of the absolute value.
+    /// Upper bound on the absolute value.
     #[must_use]
     pub fn magnitude(&self) -> u128 {
         match self {
             Self::First | Self::Since(..) => 1,
-            // Binding sees to it that this is known, and fits a memory.
+            // Binding ensures that it is known, and fits in a memory.
             Self::Before(term) => term.magnitude().unwrap_or(u128::from(u64::MAX)),
             Self::Run { most, .. } => u128::from(*most),
         }
     }
 
-    /// Whether it stands for a truth value.
+    /// Whether the term is a truth value.
     #[must_use]
     pub fn is_truth(&self) -> bool {
         matches!(self, Self::First | Self::Since(..) | Self::Before(Term::Truth(_)))
     }
 }
 
-/// The terms about the past that some formulas have, those inside others first.
+/// Terms about the past of some formulas, inner ones first.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct History {
     pasts: Vec<Arc<Past>>,
 }
 
 impl History {
-    /// What these formulas know of the past.
+    /// Collects the terms about the past of formulas.
     #[must_use]
     pub fn of<'f>(formulas: impl IntoIterator<Item = &'f Bound>) -> Self {
         let mut history = Self::default();
@@ -59,24 +60,24 @@ impl History {
         history
     }
 
-    /// Whether they know nothing of it.
+    /// Whether there are no terms about the past.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pasts.is_empty()
     }
 
-    /// How many numbers a memory has.
+    /// Length of a memory, in words.
     #[must_use]
     pub fn len(&self) -> usize {
         self.pasts.len()
     }
 
-    /// The terms.
+    /// All terms about the past.
     pub fn pasts(&self) -> impl Iterator<Item = &Past> {
         self.pasts.iter().map(|past| &**past)
     }
 
-    /// Where a memory has the number of a term.
+    /// Position of a term in a memory.
     #[must_use]
     pub fn position(&self, past: &Past) -> Option<usize> {
         self.pasts.iter().position(|known| std::ptr::eq(&**known, past) || **known == *past)
@@ -132,7 +133,7 @@ impl History {
         }
     }
 
-    /// The message of power-on, for the first scan.
+    /// Message of power-on to the first scan.
     pub fn beginning(&self, power_on: &dyn Fn(&Term, &[u64]) -> i128) -> Vec<u64> {
         let mut memory = vec![0; self.len()];
         for (position, past) in self.pasts().enumerate() {
@@ -151,7 +152,7 @@ impl History {
         message
     }
 
-    /// What a state with a memory tells the next one.
+    /// Computes the message of a state with its memory to the next state.
     pub fn message(&self, state: &impl Valuation, memory: &[u64], message: &mut Vec<u64>) {
         message.clear();
         message.extend(self.pasts().zip(memory).map(|(past, &remembered)| match past {
@@ -161,7 +162,8 @@ impl History {
         }));
     }
 
-    /// One number of the memory of a state that gets a message. `state` gives what stands before in the memory already.
+    /// Computes one number of the memory of a state that receives a message. `state` includes the earlier numbers of
+    /// the memory.
     pub fn remember(&self, position: usize, message: &[u64], state: &impl Valuation) -> u64 {
         let told = message[position];
         let holds = |formula: &Bound| formula.holds_in(state).unwrap_or(false);
@@ -179,12 +181,12 @@ impl History {
     }
 }
 
-/// A number as a memory has it.
+/// Encodes a number as a word of a memory.
 fn number(number: i128) -> u64 {
     number as i64 as u64
 }
 
-/// The number that a memory has.
+/// Decodes a word of a memory.
 #[must_use]
 pub fn remembered(word: u64) -> i128 {
     i128::from(word as i64)

@@ -1,4 +1,4 @@
-//! Formulas that speak of the beginning of a run only: something in them stands outside every temporal operator.
+//! Warnings about formulas with a part outside of every temporal operator, which is about the first state only.
 
 use super::formula::{Expression, Formula};
 use super::ltl::Path;
@@ -7,16 +7,16 @@ use super::view::View;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A part of a formula that is about the first state alone.
+/// A part of a formula that is about the first state only.
 struct Outside {
     span: Span,
-    /// Whether nothing of the formula is about later states.
+    /// Whether the whole formula is about the first state only.
     whole: bool,
 }
 
 impl Formula {
-    /// A warning that all of this, or a part of it, is about the first state alone; `text` is the formula as it was written. Who
-    /// writes `at first scan` has said so.
+    /// Makes a warning if the formula, or a part of it, is about the first state only; `text` is the formula as
+    /// written. There is no warning if the formula contains `at first scan`.
     #[must_use]
     pub fn doubt(&self, text: &str, view: View) -> Option<Diagnostic> {
         let Outside { span, whole } = self.outside()?;
@@ -30,7 +30,7 @@ impl Formula {
         Some(Diagnostic::new(Code::FormulaOfBeginning, span, message).help(help))
     }
 
-    /// The first part that is about the first state alone.
+    /// First part that is about the first state only.
     fn outside(&self) -> Option<Outside> {
         let (mut parts, mut looks_ahead) = (Vec::new(), false);
         of_formula(self, &mut parts, &mut looks_ahead);
@@ -41,13 +41,13 @@ impl Formula {
 }
 
 impl Requirement {
-    /// A warning that all of this, or a part of it, is about the first state alone. Patterns say what they are about.
+    /// Makes a warning if the requirement, or a part of it, is about the first state only. Patterns are exempt.
     #[must_use]
     pub fn doubt(&self, view: View) -> Option<Diagnostic> {
         self.formula()?.doubt(&self.text, view)
     }
 
-    /// The same for a report, on one line.
+    /// Text of the warning for a report, on one line.
     #[must_use]
     pub fn remark(&self, view: View) -> Option<String> {
         let Outside { whole, .. } = self.formula()?.outside()?;
@@ -55,7 +55,7 @@ impl Requirement {
         Some(format!("{what} of {} only; {}", first(view), always(&self.text, whole, view)))
     }
 
-    /// The formula, if it was written as one.
+    /// The formula, if the requirement is not a pattern.
     fn formula(&self) -> Option<&Formula> {
         match &self.body {
             Body::Formula(formula) if self.words.is_none() => Some(formula),
@@ -64,7 +64,7 @@ impl Requirement {
     }
 }
 
-/// How to say it of every state.
+/// Advice how to require the formula in every state.
 fn always(text: &str, whole: bool, view: View) -> String {
     let states = match view {
         View::Scan => "for every scan, write",
@@ -85,7 +85,7 @@ fn first(view: View) -> &'static str {
     }
 }
 
-/// Collects the parts of a formula that no temporal operator stands before, and notes whether it has such operators.
+/// Collects the parts of a formula outside of temporal operators, and sets `looks_ahead` if it has such operators.
 fn of_formula<'f>(formula: &'f Formula, parts: &mut Vec<&'f Formula>, looks_ahead: &mut bool) {
     match &formula.expression {
         Expression::Not(f) => of_formula(f, parts, looks_ahead),

@@ -1,13 +1,14 @@
-//! What of a formula its own operators decide, whatever the states are.
+//! Simplification of formulas by equivalences that hold in every graph.
 //!
-//! Paths end only in states without steps, and every state has a path that counts; under fairness, that is asked for. Then `EG TRUE` holds, a state where f holds has it in its future, and `AG f` has f on all ways.
+//! Paths end only in states without steps, and every state has a fair path; under fairness this is a precondition. Then
+//! `EG TRUE` holds, f implies `EF f`, and `AG f` implies `EG f`.
 
 use super::bound::{Bound, Term};
 use super::formula::{Comparison, Quantifier};
 use super::ltl::Path;
 
 impl Bound {
-    /// The formula without the parts that decide themselves: it holds in the same states of every graph.
+    /// Returns an equivalent simpler formula: it holds in the same states of every graph.
     #[must_use]
     pub fn simplified(self) -> Self {
         match self {
@@ -47,7 +48,7 @@ impl Bound {
             Self::Next(quantifier, f) => match (quantifier, f.simplified()) {
                 (Quantifier::All, Self::Truth(true)) => Self::Truth(true),
                 (Quantifier::Some, Self::Truth(false)) => Self::Truth(false),
-                // Whether there is a next state, the formula does not tell.
+                // The formula does not determine whether there is a next state.
                 (quantifier, f) => Self::Next(quantifier, Box::new(f)),
             },
             Self::Until { quantifier, weak, hold, release } => {
@@ -58,7 +59,7 @@ impl Bound {
     }
 }
 
-/// The same of the formulas about one state in one about paths.
+/// Simplifies the atoms of an LTL formula.
 fn on_paths(path: &Path<Bound>) -> Bound {
     Bound::Ltl(Box::new(path.map(&mut |f| f.clone().simplified())))
 }
@@ -96,11 +97,11 @@ fn until(quantifier: Quantifier, weak: bool, hold: Bound, release: Bound) -> Bou
     }
 }
 
-/// A comparison, unless the numbers that its sides can be decide it.
+/// Makes a comparison, or a constant if the ranges of its sides decide it.
 fn compare(comparison: Comparison, left: Term, right: Term) -> Bound {
     let difference = if left == right { Some((0, 0)) } else { left.less(&right) };
     let decided = difference.and_then(|(least, greatest)| {
-        // Below 0, at 0 and above 0, as far as the difference can be there.
+        // The difference below 0, at 0 and above 0, as far as its range goes.
         let [least, middle, greatest] = [least, 0.clamp(least, greatest), greatest].map(|d| comparison.holds(d, 0));
         (least == middle && middle == greatest).then_some(middle)
     });
@@ -132,13 +133,13 @@ impl Term {
         }
     }
 
-    /// The least and the greatest number that this minus another can be.
+    /// Range of the difference between this term and another.
     fn less(&self, other: &Self) -> Option<(i128, i128)> {
         let ((a, b), (c, d)) = (self.range()?, other.range()?);
         Some((a.checked_sub(d)?, b.checked_sub(c)?))
     }
 
-    /// Numbers between which it is in every state; `None` if they are too large.
+    /// Range of the term over all states; `None` if the numbers are too large.
     fn range(&self) -> Option<(i128, i128)> {
         Some(match self {
             Self::Number(number) => (*number, *number),
@@ -207,7 +208,7 @@ mod tests {
         }
     }
 
-    /// What is left of a formula about a net with the places `p` and `q`, where `P` stands for
+    /// Simplified form of a formula about a net with the places `p` and `q`, where `P` stands for
     /// `marked("p")`, `#p` for `tokens("p")` and `D` for `at deadlock`.
     fn simplified(text: &str) -> String {
         let places = [0, 1].map(|index| (Net::name(PlaceId::at(index)), PlaceId::at(index)));
@@ -290,7 +291,7 @@ mod tests {
             ("EG false", "FALSE"),
             ("AX true", "TRUE"),
             ("EX false", "FALSE"),
-            // In a state without steps.
+            // These differ in a state without steps.
             ("EX true", "EX TRUE"),
             ("AX false", "AX FALSE"),
             ("A [P U true]", "TRUE"),

@@ -1,9 +1,9 @@
 //! Least fixpoints by sweeps over the states.
 //!
-//! States are numbered by their distance, so going through them from the last to the first follows most steps backwards, and a
-//! few sweeps are enough; only steps that lead back to a lower number need another one. A sweep reads the rows in order, and the
-//! set, a bit a state, stays in fast memory. So no rows of predecessors are needed, which would double the graph. Where sweeps do
-//! not come to an end soon, predecessors are looked up after all.
+//! States are numbered by their distance, so a sweep from the last to the first follows most steps backwards, and a few
+//! sweeps are enough; only steps to a lower number need another one. A sweep reads the rows in order, and the set, one
+//! bit per state, stays in cache. So rows of predecessors, which would double the graph, are not needed. If sweeps do
+//! not converge soon, predecessors are used after all.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,16 +11,17 @@ use fixedbitset::FixedBitSet;
 
 use petril_search::Graph;
 
-/// Whether a state belongs to a set, for what the set holds of its successors. Once it does, it does for every larger set; and
-/// so do all states that share its row.
+/// Monotone predicate: whether a state joins a set, depending on which of its successors the set contains. True for
+/// every larger set too, and for all states that share the row.
 pub(super) type Joins<'a> = &'a dyn Fn(&FixedBitSet, u32) -> bool;
 
 const BITS: usize = usize::BITS as usize;
 
-/// Sweeps over as many rows as the graph has this many times are cheaper than rows of predecessors.
+/// Number of full sweeps that are cheaper than computing rows of predecessors.
 const SWEEPS: usize = 24;
 
-/// Adds states of `within` to a set as long as any joins. If `stopping` is set meanwhile, some may be missing.
+/// Computes the least fixpoint: adds states of `within` to a set as long as any joins. If `stopping` is set meanwhile,
+/// some may be missing.
 pub(super) fn grow(
     graph: &Graph,
     mut set: FixedBitSet,
@@ -47,7 +48,7 @@ pub(super) fn grow(
     }
 }
 
-/// What is known of rows that several states share, so that each is gone through once in a sweep.
+/// Results for shared rows, so that each is traversed only once in a sweep.
 struct Shared<'g> {
     graph: &'g Graph,
     joined: FixedBitSet,
@@ -55,7 +56,7 @@ struct Shared<'g> {
 }
 
 impl<'g> Shared<'g> {
-    /// Nothing if no rows are shared.
+    /// Makes empty results; `None` if no rows are shared.
     fn of(graph: &'g Graph) -> Option<Self> {
         let none = FixedBitSet::with_capacity(graph.rows());
         (graph.rows() < graph.expanded()).then(|| Self { graph, joined: none.clone(), failed: none })
@@ -73,7 +74,7 @@ impl<'g> Shared<'g> {
     }
 }
 
-/// Tries every state of `within` once, the last first. How many joined, and what it cost.
+/// Tries every state of `within` once, the last first. Returns the number of states that joined, and the cost.
 fn sweep(
     set: &mut FixedBitSet,
     within: &FixedBitSet,
@@ -100,7 +101,7 @@ fn sweep(
     (joined, tried)
 }
 
-/// The same by following steps backwards from what has joined.
+/// Computes the least fixpoint by following steps backwards from states that have joined.
 fn follow(graph: &Graph, set: &mut FixedBitSet, within: &FixedBitSet, stopping: &AtomicBool, joins: Joins<'_>) {
     let mut work: Vec<u32> = Vec::new();
     let enter = |set: &mut FixedBitSet, work: &mut Vec<u32>, state: u32| {

@@ -1,4 +1,4 @@
-//! Bound formulas and nodes as text, in the terms of the program and its net, or of a net alone.
+//! Text of bound formulas and nodes, with the names of the program and its net, or of a net alone.
 
 use super::bound::{Bound, Term};
 use super::dag::{Dag, Node, NodeId};
@@ -35,7 +35,7 @@ enum Strength {
 }
 
 impl Bound {
-    /// The formula as one would write it.
+    /// Text of the formula, in the syntax of requirements.
     #[must_use]
     pub fn text(&self, names: &dyn Names) -> String {
         self.set(names, Strength::Iff)
@@ -43,7 +43,7 @@ impl Bound {
 
     /// The text, in parentheses if it binds more weakly than what stands around it.
     fn set(&self, words: &dyn Names, around: Strength) -> String {
-        // Each operand with what it must bind at least as strongly as: all but `->` take their operands from the left.
+        // Each operand with its minimum binding strength: all operators but `->` are left-associative.
         let two = |(f, left): (&Self, Strength), sign: &str, (g, right): (&Self, Strength), strength: Strength| {
             let text = format!("{} {sign} {}", f.set(words, left), g.set(words, right));
             parenthesise(text, strength < around)
@@ -155,7 +155,7 @@ impl Term {
 }
 
 impl Past {
-    /// Whether it counts to this number and no further.
+    /// Whether the term is a count with this upper bound.
     fn is_run_of(&self, n: i128) -> bool {
         matches!(self, Self::Run { most, .. } if i128::from(*most) == n)
     }
@@ -189,7 +189,7 @@ fn letter(quantifier: Quantifier) -> &'static str {
 }
 
 impl Dag {
-    /// What a node says, as a sentence about a state: "`f` is true", "`f` is false", or the temporal formula.
+    /// Sentence about a state that a node expresses: "`f` is true", "`f` is false", or that the temporal formula holds.
     #[must_use]
     pub fn sentence(&self, id: NodeId, words: &dyn Names) -> String {
         let Node::State { formula, negated } = self.node(id) else {
@@ -220,7 +220,7 @@ impl Dag {
         }
     }
 
-    /// Whether a node is this constant, as far as its outermost operators show.
+    /// Whether a node is a constant, as far as its outermost operators show.
     #[must_use]
     pub fn is_constant(&self, id: NodeId, value: bool) -> bool {
         match self.node(id) {

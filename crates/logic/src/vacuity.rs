@@ -1,39 +1,39 @@
-//! The premises of a requirement: the cases about which it says something. If one never occurs where it is asked about, the
-//! requirement holds without saying anything; a run in which it occurs is an example of what it is about.
+//! Vacuity: the premises of a requirement. If a premise is never true where it matters, the requirement holds
+//! vacuously; a run in which it is true is an interesting witness.
 
 use super::bound::Bound;
 use super::formula::Quantifier;
 
-/// The premise of an implication that the truth of a formula rests on, and the way there.
+/// Premise of an implication in a formula, with the path to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Premise<'f> {
-    /// The premise.
+    /// Premise.
     pub formula: &'f Bound,
-    /// What follows from it.
+    /// Conclusion of the implication.
     pub conclusion: &'f Bound,
-    /// The way to the places where it is asked about, from an initial state.
+    /// Steps from an initial state to the states where the premise matters.
     pub way: Vec<Step<'f>>,
 }
 
-/// A part of the way to a premise.
+/// A step on the way to a premise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step<'f> {
-    /// An earlier premise holds here.
+    /// An earlier premise is true here.
     Given(&'f Bound),
-    /// Then the next state.
+    /// To the next state.
     Next,
-    /// Then some state: here or later, before this formula has become true.
+    /// To some state, here or later, before this formula has become true.
     Eventually(&'f Bound),
 }
 
-/// What is before nothing: an end that never comes.
+/// End of an until that never becomes true.
 const NEVER: &Bound = &Bound::Truth(false);
 
-/// The premises, in the order in which they stand.
+/// Finds the premises of a formula, in the order of the text.
 ///
-/// Looked for are implications that every path and state comes to positively: under conjunctions, on the right of other
-/// implications, and under temporal operators. Where no way leads to a premise, the truth of the formula does not depend on what
-/// follows from it: an implication whose premise is false is true.
+/// Considered are implications in positive positions: under conjunctions, on the right of other implications, and under
+/// temporal operators. If a premise is unreachable, the truth of the formula does not depend on the conclusion, since
+/// an implication with a false premise is true.
 #[must_use]
 pub fn premises(formula: &Bound) -> Vec<Premise<'_>> {
     let mut found = Vec::new();
@@ -60,7 +60,7 @@ fn collect<'f>(formula: &'f Bound, way: &mut Vec<Step<'f>>, found: &mut Vec<Prem
         }
         Bound::Next(_, f) => behind(Step::Next, f, found),
         Bound::Until { quantifier, hold, release, .. } => {
-            // On all paths, what is to hold until the release matters only before it.
+            // Under A, `hold` matters only before `release`.
             let end = if *quantifier == Quantifier::All { release } else { NEVER };
             behind(Step::Eventually(end), hold, found);
             behind(Step::Eventually(NEVER), release, found);
@@ -70,7 +70,8 @@ fn collect<'f>(formula: &'f Bound, way: &mut Vec<Step<'f>>, found: &mut Vec<Prem
 }
 
 impl Premise<'_> {
-    /// For each part of the way, that the rest of it can be gone from here and leads to the premise; last, the premise itself.
+    /// Formulas for each step of the way: the rest of the way leads from here to the premise. The last one is the
+    /// premise itself.
     #[must_use]
     pub fn rests(&self) -> Vec<Bound> {
         let mut rests = vec![self.formula.clone()];

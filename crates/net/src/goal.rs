@@ -1,17 +1,19 @@
-//! A property of one marking, in the form that searches towards it need: negations only at the atoms, comparisons linear.
+//! Goals: properties of a marking in the form needed for directed search, in negation normal form with linear
+//! comparisons.
 
 use super::engine::View;
 
-/// A property of a marking. Places and transitions are numbers of a net.
+/// Property of a marking that a search looks for. Places and transitions are numbers of a net.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Goal {
-    /// Every marking has it, or none.
+    /// Constant: true of every marking, or of none.
     Truth(bool),
-    /// The tokens of places, multiplied by numbers, come to no less than a number. Each place occurs once, none with 0.
+    /// The weighted sum of the tokens of places is at least a number. Each place occurs once, with a factor other than
+    /// 0.
     AtLeast {
-        /// Places and what their tokens are multiplied by.
+        /// Places with their factors.
         terms: Vec<(u32, i64)>,
-        /// The number.
+        /// Lower bound of the sum.
         least: i128,
     },
     /// The transition is enabled.
@@ -22,15 +24,15 @@ pub enum Goal {
     Dead,
     /// Some transition is enabled.
     Alive,
-    /// All of these.
+    /// Conjunction.
     All(Vec<Goal>),
-    /// At least one of these.
+    /// Disjunction.
     Any(Vec<Goal>),
 }
 
-/// What a goal asks of a marking.
+/// A marking on which goals are evaluated.
 pub trait Tokens {
-    /// How many tokens a place has.
+    /// Number of tokens on a place.
     fn tokens(&self, place: u32) -> u64;
     /// Whether a transition is enabled.
     fn is_enabled(&self, transition: u32) -> bool;
@@ -53,7 +55,7 @@ impl Tokens for View<'_> {
 }
 
 impl Goal {
-    /// Whether a marking has the property.
+    /// Whether the goal holds in a marking.
     pub fn holds(&self, marking: &impl Tokens) -> bool {
         match self {
             Self::Truth(value) => *value,
@@ -68,7 +70,7 @@ impl Goal {
     }
 }
 
-/// The weighted sum of the tokens of places.
+/// Weighted sum of the tokens of places.
 fn sum(terms: &[(u32, i64)], marking: &impl Tokens) -> i128 {
     terms.iter().map(|&(place, factor)| i128::from(factor) * i128::from(marking.tokens(place))).sum()
 }

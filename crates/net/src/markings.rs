@@ -1,4 +1,5 @@
-//! The transition view: the reachable markings of a safe net, explored by the [engine](crate::engine); every firing is a step.
+//! The transition view: the reachable markings of a safe net, explored by the [engine](super::engine). Every firing is
+//! a step.
 
 use crate::engine::{self, Exploration, Steps, explore_safely};
 use crate::net::{Net, PlaceId, TransitionId};
@@ -6,22 +7,22 @@ use petril_base::VarId;
 use petril_logic::Valuation;
 use petril_search::{Budget, DeadEnd, Graph, Parts, Progress, Step, Stop, watched};
 
-/// The reachable markings of a net: their graph, and what its states mean.
+/// Reachable markings of a net, with their graph.
 pub struct Markings<'n> {
     net: &'n Net,
     exploration: Exploration,
     graph: Graph,
 }
 
-/// Bytes set aside for each state while states are found: two words, a row, and five steps.
+/// Memory reserved per state during the search, in bytes: two words, a row, and five steps.
 const ROW: u64 = 2 * 8 + 12 + 5 * 4;
 
 impl<'n> Markings<'n> {
-    /// Explores a net until everything is found, the budget is used up, or `watch` gives a reason to stop. `watch` is called
-    /// every few hundred markings. A firing that puts a second token on a place fails, and leads nowhere.
+    /// Explores a net until all markings are found, the budget is used up, or `watch` returns a reason to stop. `watch`
+    /// is called every few hundred markings. A firing that puts a second token on a place fails: it has no successor.
     #[must_use]
     pub fn explored(net: &'n Net, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Self {
-        // Numbers of states have 32 bits; half of that leaves room for the states at hand.
+        // Numbers of states have 32 bits; half of the range leaves room for the states in progress.
         let budget = Budget { states: budget.states.min(u64::from(u32::MAX) >> 1), ..budget };
         let options = engine::Options { budget, threads: 1, keep: true };
         let mut full = false;
@@ -49,13 +50,13 @@ impl<'n> Markings<'n> {
         markings
     }
 
-    /// The net.
+    /// The net explored.
     #[must_use]
     pub fn net(&self) -> &'n Net {
         self.net
     }
 
-    /// The graph.
+    /// The reachability graph.
     #[must_use]
     pub fn graph(&self) -> &Graph {
         &self.graph
@@ -79,7 +80,7 @@ impl<'n> Markings<'n> {
         self.exploration.show(state, |view| view.enabled().next().is_none()) && self.failing(state).next().is_none()
     }
 
-    /// Calls `visit` for each enabled transition with the step it makes.
+    /// Calls `visit` with each enabled transition and its step.
     pub fn firings(&self, state: &[u64], visit: &mut dyn FnMut(TransitionId, Step<'_>)) {
         let mut next = vec![0; state.len()];
         self.exploration.show(state, |view| {
@@ -93,7 +94,7 @@ impl<'n> Markings<'n> {
         self.failing(state).for_each(|(id, place)| visit(id, Step::Fails(second_token(place))));
     }
 
-    /// The transitions that would put a second token, each with the place.
+    /// Transitions whose firing would put a second token on a place, each with the place.
     fn failing(&self, state: &[u64]) -> impl Iterator<Item = (TransitionId, PlaceId)> {
         let transitions = if self.is_guarded() { self.net.transitions().len() } else { 0 };
         (0..transitions).map(TransitionId::at).filter_map(move |id| {
@@ -104,7 +105,7 @@ impl<'n> Markings<'n> {
         })
     }
 
-    /// Whether there are complements, so that firings can fail.
+    /// Whether there are complementary places, so that firings can fail.
     fn is_guarded(&self) -> bool {
         self.exploration.places() > self.net.places().len()
     }

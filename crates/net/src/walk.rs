@@ -1,42 +1,43 @@
-//! Walks through the markings of a net that keep nothing of where they were: many of the markings of a large net are found so in
-//! no time, and nothing is ever proved.
+//! Random walks through the markings of a net, without a record of visited markings: they quickly find many of the
+//! markings of a large net, and never prove anything.
 
 use rustc_hash::FxHashMap;
 
 use super::engine::Model;
 use super::goal::{Goal, Tokens};
 
-/// A walk: a marking, and what it enables.
+/// Random walk: the current marking and its enabled transitions.
 pub struct Walk<'a> {
     model: &'a Model,
-    /// For each place the transitions that need tokens there, and how many.
+    /// For each place the transitions that need its tokens, and how many.
     takers: Vec<Vec<(u32, u64)>>,
     marking: Vec<u64>,
-    /// For each transition, how many places lack tokens it needs.
+    /// For each transition, the number of places that lack tokens it needs.
     lacking: Vec<u32>,
-    /// The enabled transitions, and where each of them stands there.
+    /// The enabled transitions, and in `position` the place of each in this list.
     enabled: Vec<u32>,
     position: Vec<u32>,
     firings: Vec<u32>,
-    /// For the choice of steps; the same ones each time.
+    /// State of the pseudo-random generator, which is seeded and so reproducible.
     random: u64,
 }
 
-/// No transition has this position.
+/// Position of a transition that is not enabled.
 const NOWHERE: u32 = u32::MAX;
 
-/// Of so many firings the best one is looked for.
+/// Number of enabled transitions of which the best one is chosen.
 const CHOICE: usize = 6;
 
 impl<'a> Walk<'a> {
-    /// A walk that begins in the initial marking; nothing if the net cannot be walked through.
+    /// Begins a walk in the initial marking; `None` if the net has several arcs between two nodes, or arcs to missing
+    /// places.
     #[must_use]
     pub fn new(model: &'a Model, seed: u64) -> Option<Self> {
         let places = model.initial.len();
         let mut takers = vec![Vec::new(); places];
         for (arcs, transition) in model.transitions.iter().zip(0..) {
             for &(place, weight) in &arcs.pre {
-                // Several arcs to one place would count as several lacks.
+                // Several arcs from one place would be counted in `lacking` several times.
                 let list: &mut Vec<(u32, u64)> = takers.get_mut(place as usize)?;
                 if list.last().is_some_and(|&(last, _)| last == transition) {
                     return None;
@@ -59,7 +60,7 @@ impl<'a> Walk<'a> {
         Some(walk)
     }
 
-    /// Goes back to the initial marking.
+    /// Returns to the initial marking.
     pub fn restart(&mut self) {
         self.marking.clone_from(&self.model.initial);
         self.firings.clear();
@@ -77,13 +78,14 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The firings since the initial marking.
+    /// Firings since the initial marking.
     #[must_use]
     pub fn firings(&self) -> &[u32] {
         &self.firings
     }
 
-    /// Fires any enabled transition; whether there is one, and it does not put more tokens than can be counted.
+    /// Fires a random enabled transition. Returns false if there is none, or tokens overflow; the walk must then be
+    /// restarted.
     pub fn step(&mut self) -> bool {
         if self.enabled.is_empty() {
             return false;
@@ -92,7 +94,8 @@ impl<'a> Walk<'a> {
         self.fire(self.enabled[any])
     }
 
-    /// Fires a transition that leads near to a goal, of some that are enabled; whether there is one.
+    /// Fires the transition that leads nearest to a goal, of a few random enabled ones. Returns false as [`Self::step`]
+    /// does.
     pub fn step_towards(&mut self, goal: &Goal) -> bool {
         let mut best: Option<(u64, u32)> = None;
         for _ in 0..CHOICE.min(self.enabled.len()) {
@@ -122,7 +125,7 @@ impl<'a> Walk<'a> {
         distance
     }
 
-    /// How much is missing for a goal, as a rough estimate.
+    /// Heuristic distance to a goal.
     fn distance(&self, goal: &Goal) -> u64 {
         let needs = |transition: u32| {
             let pre = self.model.transitions[transition as usize].pre.iter();
@@ -136,7 +139,7 @@ impl<'a> Walk<'a> {
             }
             Goal::Enabled(transition) => needs(*transition).fold(0, u64::saturating_add),
             Goal::Disabled(transition) => u64::from(needs(*transition).all(|lack| lack == 0)),
-            // The set of what is enabled is that of the marking before.
+            // The set of enabled transitions is that of the previous marking.
             Goal::Dead => self.enabled.iter().filter(|&&t| needs(t).all(|lack| lack == 0)).count() as u64,
             Goal::Alive => 0,
             Goal::All(parts) => parts.iter().fold(0, |sum, part| sum.saturating_add(self.distance(part))),
@@ -192,7 +195,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// A number below another one (xorshift, Marsaglia 2003).
+    /// Random number below `end` (xorshift, Marsaglia 2003).
     fn below(&mut self, end: usize) -> usize {
         self.random ^= self.random << 13;
         self.random ^= self.random >> 7;
@@ -215,11 +218,11 @@ impl Tokens for Walk<'_> {
     }
 }
 
-/// Firings that lead from the initial marking to the same marking, without those between two equal markings. Markings are
-/// compared by a number made of them, so whoever needs to be sure has to replay what is left.
+/// Removes the firings between two equal markings from a firing sequence. Markings are compared by a hash, so the
+/// result must be replayed to be certain.
 #[must_use]
 pub fn without_loops(model: &Model, firings: &[u32]) -> Vec<u32> {
-    // Sums of these numbers must not be equal by chance (splitmix64, Steele and others 2014).
+    // Pseudo-random weights, so that sums do not collide (splitmix64, Steele and others 2014).
     let weight = |place: u32| {
         let mut mixed = (u64::from(place) + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         mixed = (mixed ^ mixed >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);

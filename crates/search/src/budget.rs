@@ -1,57 +1,57 @@
-//! How far a search may go, how far it is, and why it stopped.
+//! Limits of a search, its progress, and the reason why it stopped.
 
 use std::fmt;
 use std::hint::black_box;
 
 use serde::{Deserialize, Serialize};
 
-/// What a search may use. It stops at the first limit and keeps what it has.
+/// Limits of a search. At the first limit the search stops and keeps its results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// States kept.
+    /// Maximum number of states kept.
     pub states: u64,
-    /// Bytes for states, steps and index.
+    /// Maximum memory for states, steps and index, in bytes.
     pub bytes: u64,
 }
 
 impl Default for Budget {
-    /// A hundred million states, eight gibibytes.
+    /// Limits of 100 million states and 8 GiB.
     fn default() -> Self {
         Self { states: 100_000_000, bytes: 8 << 30 }
     }
 }
 
-/// Whether so many bytes can be had at once. A list that grows beyond what there is would end the program.
+/// Whether `bytes` bytes can be allocated at once. A failed allocation of a growing list would abort the program.
 pub fn is_available(bytes: u64) -> bool {
     let mut probe: Vec<u8> = Vec::new();
     usize::try_from(bytes).is_ok_and(|bytes| black_box(&mut probe).try_reserve_exact(bytes).is_ok())
 }
 
-/// The figures of a search under way.
+/// Figures of a search under way.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
-    /// States found.
+    /// Number of states found.
     pub states: u64,
-    /// Of these, states whose steps are all known.
+    /// Number of these states that are expanded: all their steps are known.
     pub expanded: u64,
-    /// Length of a shortest way to the states being expanded, in steps from an initial state.
+    /// Distance of the states being expanded from an initial state, in steps.
     pub depth: usize,
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub bytes: u64,
 }
 
-/// Why a search ended.
+/// Reason why a search ended.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stop {
-    /// There is nothing left to find.
+    /// The search is complete.
     Complete,
-    /// The limit of states was reached.
+    /// The limit on the number of states was reached.
     States(u64),
-    /// The limit of memory was reached.
+    /// The limit on memory in bytes was reached.
     Bytes(u64),
-    /// The space is too large for any search, for this reason.
+    /// The state space is too large to search, for this reason.
     Refused(String),
-    /// Whoever watched the search stopped it, for this reason.
+    /// The caller's watcher stopped the search, for this reason.
     Watcher(String),
 }
 

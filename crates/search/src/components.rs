@@ -1,4 +1,4 @@
-//! Strongly connected components of a part of a graph.
+//! Strongly connected components of a subgraph.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,18 +7,19 @@ use fixedbitset::FixedBitSet;
 use crate::graph::Graph;
 use crate::tarjan::{NONE, tarjan};
 
-/// The strongly connected components of a part of a graph.
+/// Strongly connected components of the subgraph of some states.
 pub struct Components {
-    /// The component of each state; [`Components::NONE`] outside the part.
+    /// Component of each state; [`Components::NONE`] outside the part.
     pub of: Vec<u32>,
-    /// How many components there are. A component's number exceeds those of the components it leads to.
+    /// Number of components. They are numbered in reverse topological order: a component's number exceeds those it
+    /// leads to.
     pub count: usize,
     /// Components with a cycle: more than one state, or a state with a step to itself.
     pub cyclic: FixedBitSet,
 }
 
 impl Components {
-    /// Stands for "outside the part".
+    /// Component number of states outside the part.
     pub const NONE: u32 = NONE;
 
     /// Whether a state lies on a cycle within the part.
@@ -29,17 +30,17 @@ impl Components {
     }
 }
 
-/// The components of the states in `part`, steps out of it left aside.
+/// Computes the components of the states in `part`, ignoring steps out of it.
 ///
-/// Rows are nodes too, between the states that have them and those they hold, so that a row is gone through once however
-/// many states share it. A component with a cycle then holds a row, and one without does not hold more than one node.
+/// Rows are nodes too, between the states that have them and their successors, so that a shared row is traversed only
+/// once. A component with a cycle then contains a row, and one without a cycle is a single node.
 #[must_use]
 pub fn components(graph: &Graph, part: &FixedBitSet) -> Components {
     let none = || Components { of: Vec::new(), count: 0, cyclic: FixedBitSet::new() };
     components_until(graph, part, &AtomicBool::new(false)).unwrap_or_else(none)
 }
 
-/// As [`components`]. Nothing if `stopping` is set meanwhile.
+/// Computes components as [`components`] does. `None` if `stopping` is set meanwhile.
 #[must_use]
 pub fn components_until(graph: &Graph, part: &FixedBitSet, stopping: &AtomicBool) -> Option<Components> {
     let n = graph.len();

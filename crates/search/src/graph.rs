@@ -1,6 +1,6 @@
-//! The reachability graph as a search leaves it: states, steps in compressed rows, and what is missing.
+//! The reachability graph: states, steps in compressed sparse rows, and what is missing of both.
 //!
-//! States whose steps lead to the same states share one row: at the end of a scan, all states that differ in inputs only.
+//! States with the same successors share a row: at the end of a scan, all states that differ in inputs only.
 
 use std::sync::OnceLock;
 
@@ -10,17 +10,17 @@ use crate::budget::Stop;
 use crate::space::DeadEnd;
 use petril_base::Rows;
 
-/// A graph of states numbered in breadth-first order, so that a state's number never exceeds that of a state farther away.
+/// Reachability graph of states numbered in breadth-first order: numbers never decrease with the distance.
 pub struct Graph {
-    /// The states' words, one state after another; nothing if they are kept elsewhere.
+    /// Words of the states, one state after another; empty if they are kept elsewhere.
     pub(crate) arena: Vec<u64>,
     pub(crate) words: usize,
     pub(crate) len: usize,
-    /// The initial states.
+    /// Initial states.
     pub(crate) initial: Vec<u32>,
-    /// The row of each expanded state, which are the first ones.
+    /// Row of each expanded state; these come first.
     pub(crate) row_of: Vec<u32>,
-    /// `targets[starts[r]..starts[r + 1]]` is row r.
+    /// Offsets of the rows: `targets[starts[r]..starts[r + 1]]` is row r.
     pub(crate) starts: Vec<u64>,
     pub(crate) targets: Vec<u32>,
     /// First state of each breadth-first level.
@@ -28,12 +28,12 @@ pub struct Graph {
     /// States with a step that leads nowhere: of each row its first state, once for each failure; `None` stands for the
     /// initial step.
     pub(crate) failures: Vec<(Option<u32>, DeadEnd)>,
-    /// States of which not all steps are known, beside those that were not expanded and those with a step that leads nowhere.
+    /// States of which not all steps are known, in addition to those not expanded and those with a failing step.
     pub(crate) cut: Vec<u32>,
     pub(crate) stop: Stop,
     pub(crate) members: OnceLock<Rows<u32>>,
     pub(crate) backward: OnceLock<Rows<u32>>,
-    /// The state from which a state was first reached; its own number for an initial state.
+    /// Parent of each state: the state from which it was first reached; its own number for an initial state.
     pub(crate) parents: OnceLock<Vec<u32>>,
 }
 
@@ -56,11 +56,11 @@ pub struct Parts {
 }
 
 impl Graph {
-    /// The graph of `states` states that are kept elsewhere: state 0 is the initial one, the first states are expanded, and
-    /// `targets[starts[s]..starts[s + 1]]` are the successors of such a state s.
+    /// Makes the graph of `states` states that are kept elsewhere: state 0 is the initial one, the first states are
+    /// expanded, and `targets[starts[s]..starts[s + 1]]` are the successors of an expanded state s.
     ///
-    /// Unless the graph is the whole one, which `stop` says, a last state is added that stands for all that are not known, with the
-    /// number that targets give it.
+    /// Unless the graph is complete, according to `stop`, a last state is added that stands for all unknown ones, with
+    /// the number that targets give it.
     #[must_use]
     pub fn of_rows(states: usize, starts: Vec<u64>, targets: Vec<u32>, stop: Stop) -> Self {
         let rows = starts.len().saturating_sub(1) as u32;
@@ -83,12 +83,12 @@ impl Graph {
         self.failures.extend(failures.into_iter().map(|(state, dead_end)| (Some(state), dead_end)));
     }
 
-    /// The graph of states that are kept elsewhere, some of which share rows: see [`followed`](crate::followed).
+    /// Makes the graph of states that are kept elsewhere and may share rows: see [`followed`](super::followed).
     pub(crate) fn of_pairs(initial: Vec<u32>, row_of: Vec<u32>, starts: Vec<u64>, targets: Vec<u32>) -> Self {
         Self { len: row_of.len(), initial, row_of, starts, targets, ..Self::empty(0) }
     }
 
-    /// No states yet, of this many words.
+    /// Makes an empty graph of states of `words` words.
     pub(crate) fn empty(words: usize) -> Self {
         Self {
             arena: Vec::new(),
@@ -108,25 +108,25 @@ impl Graph {
         }
     }
 
-    /// How many states there are.
+    /// Number of states.
     #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there is no state at all.
+    /// Whether there is no state.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// How many steps are known, counted for each state.
+    /// Number of known steps, counted for each state.
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.row_of.iter().map(|&row| self.row(row).len() as u64).sum()
     }
 
-    /// The words of a state.
+    /// Words of a state.
     #[must_use]
     pub fn state(&self, id: u32) -> &[u64] {
         let start = id as usize * self.words;
@@ -139,43 +139,43 @@ impl Graph {
         &self.initial
     }
 
-    /// The numbers of all states.
+    /// Numbers of all states.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = u32> + Clone + use<> {
         0..self.len() as u32
     }
 
-    /// The known successors of a state, one for each step.
+    /// Known successors of a state, one for each step.
     #[must_use]
     pub fn successors(&self, id: u32) -> &[u32] {
         self.row_of.get(id as usize).map_or(&[], |&row| self.row(row))
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The row of a state, if it was expanded.
+    /// Row of a state, if the state was expanded.
     #[must_use]
     pub fn row_of(&self, id: u32) -> Option<u32> {
         self.row_of.get(id as usize).copied()
     }
 
-    /// A row: the successors of all states that have it.
+    /// Targets of a row: the successors of all states that share it.
     #[must_use]
     pub fn row(&self, row: u32) -> &[u32] {
         &self.targets[self.starts[row as usize] as usize..self.starts[row as usize + 1] as usize]
     }
 
-    /// The states that have a row, ascending. The lists are built when first asked for.
+    /// States that share a row, ascending. The lists are built on first use.
     #[must_use]
     pub fn members(&self, row: u32) -> &[u32] {
         let pairs = || self.row_of.iter().zip(0..).map(|(&row, state)| (row as usize, state));
         &self.members.get_or_init(|| Rows::group(self.rows(), pairs()))[row as usize]
     }
 
-    /// The rows that hold a state, once for each step. The lists are built when first asked for.
+    /// Rows that contain a state, once for each step. The lists are built on first use.
     #[must_use]
     pub fn rows_to(&self, id: u32) -> &[u32] {
         let rows = 0..self.rows() as u32;
@@ -183,7 +183,7 @@ impl Graph {
         &self.backward.get_or_init(|| Rows::group(self.len(), pairs()))[id as usize]
     }
 
-    /// States not all of whose successors are known: not expanded, or with a step that fails.
+    /// Open states, of which not all successors are known: not expanded, cut, or with a failing step.
     #[must_use]
     pub fn open(&self) -> FixedBitSet {
         let mut open = FixedBitSet::with_capacity(self.len());
@@ -194,7 +194,7 @@ impl Graph {
         open
     }
 
-    /// How many states were expanded; they are the first ones.
+    /// Number of expanded states; these come first.
     #[must_use]
     pub fn expanded(&self) -> usize {
         self.row_of.len()
@@ -206,13 +206,13 @@ impl Graph {
         !self.initial.is_empty() && self.failures.iter().all(|(state, _)| state.is_some())
     }
 
-    /// Steps that lead nowhere, each with a state it leaves, nearest first; `None` stands for the step to an initial state.
+    /// Failing steps, each with its source state, nearest first; `None` stands for the step to an initial state.
     #[must_use]
     pub fn failures(&self) -> &[(Option<u32>, DeadEnd)] {
         &self.failures
     }
 
-    /// Why the search ended.
+    /// Reason why the search ended.
     #[must_use]
     pub fn stop(&self) -> &Stop {
         &self.stop
@@ -224,13 +224,13 @@ impl Graph {
         self.stop == Stop::Complete && self.failures.is_empty() && self.cut.is_empty()
     }
 
-    /// The largest of the shortest distances from an initial state, in steps.
+    /// Maximum distance of a state from an initial state, in steps.
     #[must_use]
     pub fn depth(&self) -> usize {
         self.levels.len().saturating_sub(1)
     }
 
-    /// A shortest way from an initial state to a state, both included.
+    /// A shortest path from an initial state to a state, both included.
     #[must_use]
     pub fn path_to(&self, id: u32) -> Vec<u32> {
         let parents = self.parents.get_or_init(|| self.first_reached_from());
@@ -244,7 +244,8 @@ impl Graph {
         path
     }
 
-    /// For each state the first one with a step to it. As rows are in the order of distances, that is one of the nearest.
+    /// Parent of each state: the first state with a step to it. Rows are ordered by distance, so it is one of the
+    /// nearest.
     fn first_reached_from(&self) -> Vec<u32> {
         let mut first_of_row = vec![u32::MAX; self.rows()];
         for (state, &row) in self.row_of.iter().enumerate().rev() {
@@ -261,7 +262,7 @@ impl Graph {
         parents
     }
 
-    /// Bytes in use, without the lists that are built when asked for.
+    /// Memory in use in bytes, without the lists built on first use.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         let numbers = self.row_of.capacity() + self.targets.capacity();

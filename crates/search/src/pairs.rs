@@ -1,39 +1,39 @@
-//! The product of a graph with something that follows its paths, in one of several ways in each state.
+//! The product of a graph with a nondeterministic automaton that follows its paths.
 
 use rustc_hash::FxHashMap;
 
 use crate::budget::{Budget, Stop};
 use crate::graph::Graph;
 
-/// Something that follows the paths of a graph and is in some mode in each of their states.
+/// Nondeterministic automaton that reads the states along the paths of a graph. Its states are called modes.
 pub trait Follower {
-    /// Calls `visit` for each mode in which it can enter a state, coming from a state where it was in mode `from`; `None` stands for
-    /// the beginning. They depend on [`Follower::class`] of the mode alone.
+    /// Calls `visit` with each mode in which the automaton can enter a state from mode `from`; `None` stands for the
+    /// beginning. The modes depend on `from` only by its [`Follower::class`].
     fn enter(&self, from: Option<u32>, state: u32, visit: &mut dyn FnMut(u32));
 
-    /// Modes of the same class go on in the same way.
+    /// Class of a mode. Modes of the same class have the same successors.
     fn class(&self, mode: u32) -> u32;
 }
 
-/// The paths of a graph together with the modes of what follows them.
+/// Product of a graph and a [`Follower`].
 pub struct Pairs {
-    /// The pairs that are reachable, and the steps between them. Where the graph's own steps are not all known, neither are these.
+    /// Reachable pairs and the steps between them. Steps that are unknown in the original graph are unknown here too.
     pub graph: Graph,
-    /// For each of its states the state of the graph and the mode.
+    /// For each state of the product, the state of the original graph and the mode.
     pub pairs: Vec<(u32, u32)>,
 }
 
-/// The product; or the limit that it would go beyond.
+/// Computes the product.
 ///
 /// # Errors
-/// There are more pairs than the budget has states, or they take more memory.
+/// The limit that would be exceeded: there are more pairs than the budget has states, or they take more memory.
 pub fn followed(graph: &Graph, follower: &dyn Follower, budget: Budget) -> Result<Pairs, Stop> {
     let mut pairs = Numbering::default();
     for &state in graph.initial() {
         follower.enter(None, state, &mut |mode| _ = pairs.number(state, mode));
     }
     let initial = (0..pairs.list.len() as u32).collect();
-    // Pairs share a row where their states do and their modes go on in the same way.
+    // Pairs share a row if their states do and their modes are of the same class.
     let mut rows: FxHashMap<(Option<u32>, u32), u32> = FxHashMap::default();
     let (mut row_of, mut starts, mut targets): (Vec<u32>, Vec<u64>, Vec<u32>) = (Vec::new(), vec![0], Vec::new());
     while let Some(&(state, mode)) = pairs.list.get(row_of.len()) {
@@ -57,7 +57,7 @@ pub fn followed(graph: &Graph, follower: &dyn Follower, budget: Budget) -> Resul
     Ok(Pairs { graph: Graph::of_pairs(initial, row_of, starts, targets), pairs: pairs.list })
 }
 
-/// Pairs of a state and a mode, numbered as they are met.
+/// Pairs of a state and a mode, numbered in the order of discovery.
 #[derive(Default)]
 struct Numbering {
     list: Vec<(u32, u32)>,
@@ -65,7 +65,7 @@ struct Numbering {
 }
 
 impl Numbering {
-    /// About what each takes.
+    /// Approximate memory of a pair, in bytes.
     const BYTES: usize = 48;
 
     fn number(&mut self, state: u32, mode: u32) -> u32 {

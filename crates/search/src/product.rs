@@ -1,29 +1,29 @@
-//! A graph beside an observer, which remembers of the states before what a formula has to know.
+//! The product of a graph with an observer: a deterministic automaton that remembers what a formula needs of the past.
 //!
-//! The memory of a state follows from a message of the state before, so states with the same row and the same message share a row
-//! of the product, too.
+//! The memory of a state follows from a message of the previous state, so states with the same row and the same message
+//! share a row of the product too.
 
 use crate::budget::{Budget, Progress, Stop};
 use crate::graph::Graph;
 use crate::store::Store;
 
-/// Remembers something along a path, in memories of a fixed length.
+/// Deterministic automaton that is run along paths; its memory has a fixed length.
 pub trait Observer: Sync {
-    /// The length of a memory and of a message.
+    /// Length of a memory and of a message, in words.
     fn len(&self) -> usize;
-    /// Whether it remembers nothing.
+    /// Whether the observer remembers nothing.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// What power-on tells the first state.
+    /// Message of power-on to the first state.
     fn beginning(&self) -> Vec<u64>;
-    /// What a state with its memory tells the next one.
+    /// Computes the message of a state with its memory to the next state.
     fn message(&self, state: &[u64], memory: &[u64], message: &mut Vec<u64>);
-    /// The memory of a state that gets a message.
+    /// Computes the memory of a state that receives a message.
     fn remember(&self, message: &[u64], state: &[u64], memory: &mut Vec<u64>);
 }
 
-/// The product: the words of its states are the number of a state of the graph and its memory.
+/// Computes the product. The words of its states are the number of a state of the graph and its memory.
 #[must_use]
 pub fn observed(
     graph: &Graph,
@@ -48,25 +48,25 @@ struct Product<'a> {
     graph: &'a Graph,
     observer: &'a dyn Observer,
     states: Store,
-    /// For each row of the product the row of the graph, and the message.
+    /// Row of the graph and message, for each row of the product.
     rows: Store,
     result: Graph,
 }
 
-/// States expanded between two looks at the clock.
+/// Number of states expanded between two checks of the limits.
 const TURN: usize = 1 << 12;
 
-/// Stands for the row of a state that the graph does not expand.
+/// Row of a state that the graph does not expand.
 const NO_ROW: u32 = u32::MAX;
 
 impl Product<'_> {
     fn run(&mut self, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Stop {
         let beginning = self.observer.beginning();
         let initial = self.enter(&beginning, self.graph.initial());
-        // A state is met once for each of its memories, and the first scan leaves one.
+        // The product has a state for each memory of a state, and after the first scan there is only one.
         self.result.initial = initial;
         self.result.levels.extend((!self.result.initial.is_empty()).then_some(0));
-        // Steps that fail later leave states that are cut.
+        // Sources of later failing steps are cut.
         let of_power_on = self.graph.failures().iter().filter(|(state, _)| state.is_none());
         self.result.failures.extend(of_power_on);
         let open = self.graph.open();
@@ -112,7 +112,7 @@ impl Product<'_> {
         }
     }
 
-    /// The row of the product for a row of the graph and a message, which the given state has.
+    /// Row of the product for a row of the graph, which is that of `state`, and a message.
     fn row(&mut self, row: u32, message: &[u64], state: u32) -> u32 {
         let mut key = vec![u64::from(row)];
         key.extend_from_slice(message);
@@ -127,7 +127,7 @@ impl Product<'_> {
         number[0]
     }
 
-    /// The numbers of some states of the graph that get this message.
+    /// Numbers of states of the graph that receive a message.
     fn enter(&mut self, message: &[u64], states: &[u32]) -> Vec<u32> {
         let (mut words, mut memory, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
         for &state in states {

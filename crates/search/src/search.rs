@@ -1,5 +1,5 @@
-//! Breadth-first search: batches of states are expanded on all processors, and their successors entered one after another,
-//! so that the numbering does not depend on the number of threads. While one batch is entered, the next is expanded.
+//! Breadth-first search: batches of states are expanded on all processors, and their successors inserted sequentially,
+//! so that the numbering does not depend on the number of threads. While one batch is inserted, the next is expanded.
 
 use std::hint::black_box;
 use std::ops::Range;
@@ -12,22 +12,22 @@ use crate::space::{StateSpace, Step, Successors};
 use crate::store::{Store, hash};
 use crate::table::Table;
 
-/// Successors computed before they are entered, at most, unless one state alone has more.
+/// Maximum number of successors computed before they are inserted, unless one state alone has more.
 const BATCH: u64 = 1 << 15;
 
-/// As many at least, so that the search does not slow down where the budget is almost used up.
+/// Minimum number of successors in a batch, so that the search does not slow down when the budget is almost used up.
 const LEAST: u64 = 1 << 10;
 
-/// Batches of fewer states are expanded on one thread.
+/// Number of states below which a batch is expanded on one thread.
 const ALONE: usize = 64;
 
-/// States whose rows are looked for together.
+/// Number of states whose rows are looked up together.
 const TOGETHER: usize = 64;
 
-/// Explores a space until everything is found, the budget is used up, or `watch` gives a reason to stop. `watch` is called
-/// before each batch, and once at the end.
+/// Explores a space until all states are found, the budget is used up, or `watch` returns a reason to stop. `watch` is
+/// called before each batch, and once at the end.
 pub fn explore(space: &dyn StateSpace, budget: Budget, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Graph {
-    // Numbers of states and rows have 32 bits; half of that leaves room for a batch.
+    // Numbers of states and rows have 32 bits; half of the range leaves room for a batch.
     let budget = Budget { states: budget.states.min(u64::from(u32::MAX) >> 1), ..budget };
     let (graph, states) = (Graph::empty(space.words()), Store::new(space.words()));
     let mut search = Search { space, budget, graph, states, rows: Table::default(), firsts: Vec::new() };
@@ -44,12 +44,12 @@ struct Search<'a> {
     budget: Budget,
     graph: Graph,
     states: Store,
-    /// The relevant parts of the states expanded so far, if states can share rows: that of a row is that of its first state.
+    /// Table of rows by the relevant bits of their first states, if states can share rows.
     rows: Table,
     firsts: Vec<u32>,
 }
 
-/// States whose rows are new and have to be filled.
+/// States whose rows are new and have to be computed.
 #[derive(Default)]
 struct Batch {
     ids: Vec<u32>,
@@ -100,7 +100,7 @@ impl Search<'_> {
             };
             let space = self.space;
             (found, batch) = if next.ids.len() < ALONE {
-                // Waking other threads costs more than a few states.
+                // Waking other threads costs more than expanding a few states.
                 self.enter(&batch.ids, &found);
                 (expanded(space, &next.words), next)
             } else {
@@ -111,9 +111,9 @@ impl Search<'_> {
         None
     }
 
-    /// Gives the next states of `rest` their rows, and returns those of them whose rows are new: as many as have [`BATCH`]
-    /// successors together, but one at least. `None` if that one has more than the budget allows. `waiting` successors were not
-    /// entered yet.
+    /// Assigns rows to the next states of `rest`, and returns those whose rows are new: at most as many as have
+    /// [`BATCH`] successors in total, but at least one. `None` if that one has more successors than the budget allows.
+    /// `waiting` successors have not been inserted yet.
     fn batch(&mut self, rest: Range<u32>, waiting: u64) -> Option<Batch> {
         let Self { space, budget, graph, states, rows, firsts } = self;
         let most = budget.states.saturating_sub(states.len() as u64 + waiting).clamp(LEAST, BATCH);
@@ -157,7 +157,7 @@ impl Search<'_> {
         Some(batch)
     }
 
-    /// Enters the successors of some states.
+    /// Inserts the successors of some states.
     fn enter(&mut self, ids: &[u32], found: &[Successors]) {
         let Self { graph, states, space, .. } = self;
         let words = space.words();
@@ -197,7 +197,7 @@ impl Search<'_> {
     }
 }
 
-/// The steps out of some states, computed on all processors if it is worth while.
+/// Computes the steps out of some states, on all processors if that is worthwhile.
 fn expanded(space: &dyn StateSpace, states: &[u64]) -> Vec<Successors> {
     let piece = |states: &[u64]| {
         let mut successors = Successors::default();

@@ -1,20 +1,19 @@
-//! The seam between what has states and what explores them.
+//! Interface between systems with states and the search.
 
-/// A system as states and steps. A state is a vector of `u64` words, of the same length for all states.
+/// A transition system. A state is a vector of `u64` words, of the same length for all states.
 ///
-/// Successors depend on nothing but the state, and come in the same order whenever asked for. Implementations are shared
-/// between threads.
+/// Successors depend only on the state, and always come in the same order. Implementations are shared between threads.
 pub trait StateSpace: Sync {
     /// Length of a state in words.
     fn words(&self) -> usize;
 
-    /// Calls `visit` for each initial state.
+    /// Calls `visit` with each step to an initial state.
     fn initial(&self, visit: &mut dyn FnMut(Step<'_>));
 
-    /// Calls `visit` for each step out of a state.
+    /// Calls `visit` with each step out of a state.
     fn successors(&self, state: &[u64], visit: &mut dyn FnMut(Step<'_>));
 
-    /// The steps out of some states, given one after another. What is computed for many states at once is computed here.
+    /// Computes the steps out of consecutive states. Spaces that compute many states at once override this.
     fn expand(&self, states: &[u64], into: &mut Successors) {
         for state in states.chunks_exact(self.words()) {
             self.successors(state, &mut |step| into.add(step));
@@ -22,34 +21,35 @@ pub trait StateSpace: Sync {
         }
     }
 
-    /// The bits of a state that its steps depend on: states that agree in these have the same steps. `None` if all do.
+    /// Mask of the bits of a state on which its steps depend: states that agree on these have the same steps. `None`
+    /// for all bits.
     fn relevant(&self) -> Option<&[u64]> {
         None
     }
 
-    /// About how many steps leave a state. A space whose steps are counted in millions says so here, so that the search
-    /// can give up before it begins; the initial states are meant by `None`.
+    /// Approximate number of steps out of a state; `None` stands for the initial states. Spaces with millions of steps
+    /// override this, so that the search can give up before it begins.
     fn fan_out(&self, state: Option<&[u64]>) -> u64 {
         let _ = state;
         8
     }
 
-    /// Why the space is too large for any search, and what its owner can do about it; or why its steps cannot be trusted.
+    /// Reason why the space is too large for any search, and what to do about it; or why its steps cannot be trusted.
     fn refusal(&self) -> Option<String> {
         None
     }
 }
 
-/// One step.
+/// A step of a state space.
 #[derive(Clone, Copy, Debug)]
 pub enum Step<'a> {
-    /// A step to this state. The words are only valid during the call.
+    /// Step to this state. The words are only valid during the call.
     To(&'a [u64]),
     /// A step that leads nowhere.
     Fails(DeadEnd),
 }
 
-/// A step that leads to no state: something that must not happen does. Each state space has kinds of its own.
+/// Reason why a step has no successor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeadEnd {
     /// Name of the kind.
@@ -58,19 +58,19 @@ pub struct DeadEnd {
     pub at: usize,
 }
 
-/// The steps out of some states, state after state.
+/// Steps out of consecutive states.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Successors {
-    /// The words of the states they lead to.
+    /// Words of the successors.
     pub(crate) words: Vec<u64>,
-    /// For each state, where the words of its successors end.
+    /// For each state, the end offset of its successors' words.
     pub(crate) ends: Vec<usize>,
     /// How steps fail, each with the position of the state, once for each.
     pub(crate) failures: Vec<(usize, DeadEnd)>,
 }
 
 impl Successors {
-    /// A step out of the state at hand.
+    /// Adds a step out of the current state.
     pub fn add(&mut self, step: Step<'_>) {
         match step {
             Step::To(state) => self.words.extend_from_slice(state),
@@ -84,7 +84,7 @@ impl Successors {
         }
     }
 
-    /// All steps out of the state at hand were added.
+    /// Ends the steps out of the current state.
     pub fn finish(&mut self) {
         self.ends.push(self.words.len());
     }

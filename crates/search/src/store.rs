@@ -1,10 +1,10 @@
-//! Every state once: an arena of words, and a table of numbers.
+//! Store of distinct states: an arena of words, and a hash table of numbers.
 
 use std::hint::black_box;
 
 use crate::table::Table;
 
-/// States in the order they were first seen. A state costs its words and about seven bytes of table.
+/// Distinct states in the order in which they were first seen. A state takes its words and about seven bytes of table.
 pub struct Store {
     words: usize,
     len: usize,
@@ -12,32 +12,32 @@ pub struct Store {
     table: Table,
 }
 
-/// States entered together. What they need fits into the nearest memory.
+/// Number of states inserted together. Their lines fit into the innermost cache.
 const BATCH: usize = 64;
 
 impl Store {
-    /// An empty store of states of this many words.
+    /// Makes an empty store of states of `words` words.
     pub fn new(words: usize) -> Self {
         Self { words, len: 0, arena: Vec::new(), table: Table::default() }
     }
 
-    /// The words of all states, one state after another.
+    /// Returns the words of all states, one state after another.
     pub fn into_arena(self) -> Vec<u64> {
         self.arena
     }
 
-    /// How many states there are.
+    /// Number of states.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// A state by its number.
+    /// Words of a state.
     pub fn get(&self, id: u32) -> &[u64] {
         let start = id as usize * self.words;
         &self.arena[start..start + self.words]
     }
 
-    /// Enters states, given one after another, and adds their numbers, new or not.
+    /// Inserts consecutive states, and appends their numbers, new or not.
     pub fn enter(&mut self, states: &[u64], numbers: &mut Vec<u32>) {
         for states in states.chunks(BATCH * self.words) {
             let (words, arena) = (self.words, &self.arena);
@@ -45,7 +45,7 @@ impl Store {
             self.table.reserve(BATCH, |id| hash(at(id).iter().copied()));
             let mut hashes = [0; BATCH];
             let mut touched = 0;
-            // No load waits for another in these loops, so many are under way at a time.
+            // The loads in these loops are independent, so many of them overlap.
             for (hashed, state) in hashes.iter_mut().zip(states.chunks_exact(words)) {
                 *hashed = hash(state.iter().copied());
                 touched ^= self.table.touch(*hashed);
@@ -68,13 +68,13 @@ impl Store {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub fn bytes(&self) -> u64 {
         self.arena.capacity() as u64 * 8 + self.table.bytes()
     }
 }
 
-/// A hash of some words, by products of twice their width, folded.
+/// Hash of words, by folded 128-bit products.
 #[inline(always)]
 pub fn hash(words: impl Iterator<Item = u64>) -> u64 {
     words.fold(0x9E37_79B9_7F4A_7C15, |hash: u64, word| {

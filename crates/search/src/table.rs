@@ -1,31 +1,31 @@
-//! A hash table of numbers from 0, whose keys are known elsewhere, in lines of 64 bytes, as processors fetch memory.
+//! Hash table of numbers from 0 whose keys are stored elsewhere, with cache lines of 64 bytes as buckets.
 //!
-//! An entry is a number and, in the bits that the number does not need, a part of the key's hash. So a look-up reads one line,
-//! rarely two, and asks for the key of the entry that is probably the right one. Nothing is ever removed.
+//! An entry is a number and, in the bits that the number does not need, a tag from the key's hash. So a look-up reads
+//! one line, rarely two, and usually compares only one key. Nothing is ever removed.
 
 use std::hint::black_box;
 
-/// Numbers moved to a wider table together, so that no load waits for another.
+/// Number of entries moved to a wider table together, so that their loads overlap.
 const TOGETHER: usize = 64;
 
-/// Entries of a line; 0 means that there is none.
+/// Number of entries of a line; an entry of 0 is empty.
 const LINE: usize = 16;
 
 #[derive(Clone, Copy, Default)]
 #[repr(align(64))]
 struct Line([u32; LINE]);
 
-/// What was found in a line.
+/// Result of searching a line for a tag.
 struct Found {
-    /// How many entries have the tag.
+    /// Number of entries with the tag.
     count: u32,
-    /// The sum of their positions, counted from 1.
+    /// Sum of the positions of these entries, counted from 1.
     positions: usize,
-    /// How many entries are used; they are the first ones.
+    /// Number of used entries, which come first.
     used: usize,
 }
 
-/// The table. What its entries stand for is asked for whenever it matters.
+/// Hash table of numbers. Keys are compared by a callback.
 pub struct Table {
     /// 2^`log` lines.
     lines: Vec<Line>,
@@ -44,7 +44,7 @@ impl Table {
         Self { lines: vec![Line::default(); 1 << log], log, len: 0 }
     }
 
-    /// Makes room for so many numbers more; `hash` gives the hash of the key of a number in the table.
+    /// Makes room for `more` numbers; `hash` gives the hash of the key of a number in the table.
     #[inline]
     pub fn reserve(&mut self, more: usize, hash: impl Fn(u32) -> u64) {
         while self.len + more > self.lines.len() * LINE / 8 * 7 {
@@ -64,13 +64,13 @@ impl Table {
         }
     }
 
-    /// Reads near where a key is.
+    /// Prefetches the line of a key.
     #[inline(always)]
     pub fn touch(&self, hash: u64) -> u32 {
         self.lines[self.home(hash)].0[0]
     }
 
-    /// The number that is probably that of a key.
+    /// Returns the number that is probably that of a key, without comparing keys.
     #[inline(always)]
     pub fn candidate(&self, hash: u64) -> Option<u32> {
         let line = &self.lines[self.home(hash)];
@@ -78,13 +78,13 @@ impl Table {
         (found.count == 1).then(|| self.number(line.0[found.positions - 1]))
     }
 
-    /// The number of a key, if it is there; `is` says whether it is that of a number.
+    /// Finds the number of a key, if it is there; `is` says whether a number is that of the key.
     #[inline(always)]
     pub fn find(&self, hash: u64, is: impl Fn(u32) -> bool) -> Option<u32> {
         self.look(hash, is).ok()
     }
 
-    /// The number of a key; it becomes `next` if it has none. There must be room.
+    /// Returns the number of a key; a new key gets the number `next`. There must be room.
     #[inline(always)]
     pub fn enter(&mut self, hash: u64, next: u32, is: impl Fn(u32) -> bool) -> u32 {
         match self.look(hash, is) {
@@ -97,12 +97,12 @@ impl Table {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub fn bytes(&self) -> u64 {
         (self.lines.capacity() * size_of::<Line>()) as u64
     }
 
-    /// The number of a key, or where there is room for it.
+    /// Finds the number of a key, or the line and the position where there is room for it.
     #[inline(always)]
     fn look(&self, hash: u64, is: impl Fn(u32) -> bool) -> Result<u32, (usize, usize)> {
         let (mut at, tag) = (self.home(hash), self.tag(hash));
@@ -127,7 +127,7 @@ impl Table {
         }
     }
 
-    /// Enters a number that is not there.
+    /// Inserts a number that is not there.
     #[inline(always)]
     fn append(&mut self, hash: u64, number: u32) {
         let mut at = self.home(hash);
@@ -142,7 +142,7 @@ impl Table {
         }
     }
 
-    /// What a line has of a tag. It is computed without branches, and many entries at once.
+    /// Searches a line for a tag, without branches, so that many entries are compared at once.
     #[inline(always)]
     fn search(&self, line: &Line, tag: u32) -> Found {
         let tags = !self.numbers();
@@ -157,13 +157,13 @@ impl Table {
         Found { count, positions: positions as usize, used: used as usize }
     }
 
-    /// The line where a key is looked for first.
+    /// Home line of a key, where the search begins.
     #[inline(always)]
     fn home(&self, hash: u64) -> usize {
         (hash >> (64 - self.log)) as usize
     }
 
-    /// The bits of an entry that hold a number, plus 1.
+    /// Mask of the bits of an entry that hold a number plus 1.
     #[inline(always)]
     fn numbers(&self) -> u32 {
         // There are fewer numbers than entries.

@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use fixedbitset::FixedBitSet;
 
-/// Stands for "in no component".
+/// Component number of nodes outside the part.
 pub const NONE: u32 = u32::MAX;
 
-/// The component of each of `n` nodes ([`NONE`] for a node that is not in `part`) and how many there are. A component's
-/// number exceeds those of the components it leads to. Nothing if `stopping` is set meanwhile.
+/// Computes the component of each of `n` nodes ([`NONE`] for nodes outside `part`) and the number of components. A
+/// component's number exceeds those of the components it leads to. `None` if `stopping` is set meanwhile.
 pub fn tarjan<'g>(
     n: usize,
     part: &FixedBitSet,
@@ -17,7 +17,7 @@ pub fn tarjan<'g>(
 ) -> Option<(Vec<u32>, usize)> {
     let mut component = vec![NONE; n];
     let mut count = 0;
-    // The order in which nodes are first seen, 0 for "not seen", and the smallest order known to be in the same component.
+    // Discovery order of nodes (0: not seen), and low links: the smallest order known to be in the same component.
     let (mut order, mut low) = (vec![0_u32; n], vec![0_u32; n]);
     let mut seen = 0;
     let mut stack: Vec<u32> = Vec::new();
@@ -58,7 +58,7 @@ pub fn tarjan<'g>(
                 low[parent as usize] = low[parent as usize].min(low[v]);
             }
             if low[v] == order[v] {
-                // The node was the first seen of its component; the others lie above it.
+                // The node is the root of its component, whose other nodes lie above it on the stack.
                 while let Some(member) = stack.pop() {
                     component[member as usize] = count;
                     if member == node {

@@ -1,4 +1,4 @@
-//! Work that somebody watches, and can stop.
+//! Long work that a watcher can cancel.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use crate::budget::Progress;
 
-/// Between two looks.
+/// Time between two calls of the watcher.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Does some work on another thread, which is told by the flag when `watch` gives a reason to stop. What came of the work; and the
-/// reason, if there was one.
+/// Does some work on another thread, and sets the flag when `watch` returns a reason to stop. Returns the result of the
+/// work, and the reason, if there was one.
 ///
-/// All long work on nets is asked to stop in this way: it looks at the flag now and then.
+/// Long work on nets is always cancelled in this way: it checks the flag now and then.
 pub fn watched<T: Send>(
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
     progress: &Progress,

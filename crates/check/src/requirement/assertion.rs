@@ -1,4 +1,4 @@
-//! Assertions: what must be so whenever control comes to an instruction.
+//! Assertions: formulas that must hold whenever control reaches an instruction.
 
 use super::assumption::looks_back_one_scan;
 use super::bind::bind;
@@ -10,27 +10,27 @@ use petril_logic::Quantifier;
 use petril_logic::View;
 use petril_logic::{AssertionText, Origin};
 
-/// An assertion in a program.
+/// A bound assertion of a program.
 #[derive(Clone, Debug)]
 pub struct Assertion {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What it says in the words of its author.
+    /// Description by the author.
     pub sentence: Option<String>,
-    /// As it was written.
+    /// Formula as written.
     pub text: String,
-    /// Where it stands.
+    /// Position as file, line and column.
     pub origin: Origin,
-    /// What must be so.
+    /// Bound formula.
     pub formula: Bound,
-    /// The lines of flat code, from 0, that it is about: one for each time its unit is called.
+    /// Lines of flat code, from 0, before which the formula is checked: one for each call of the unit.
     pub lines: Vec<usize>,
 }
 
-/// Binds an assertion that stands in this text, which the program was made from.
+/// Binds an assertion in the source text of the program.
 ///
 /// # Errors
-/// It stands before no instruction, or it is no formula about one moment of a scan.
+/// No instruction follows the assertion, or its formula is not about one moment of a scan.
 pub fn bind_assertion(
     assertion: &AssertionText,
     program: &str,
@@ -60,7 +60,7 @@ pub fn bind_assertion(
     Ok(Assertion { name, sentence, text, origin, formula, lines })
 }
 
-/// The lines of flat code that the instruction behind an offset begins with, if it stands in the same unit.
+/// First lines of flat code of the next instruction after an offset, if it is in the same unit.
 fn lines_behind(offset: usize, program: &str, system: &System) -> Vec<usize> {
     let code = &system.program.code;
     let Some(start) = code.iter().map(|line| line.span.start).filter(|&start| start >= offset).min() else {
@@ -78,7 +78,7 @@ fn lines_behind(offset: usize, program: &str, system: &System) -> Vec<usize> {
 }
 
 impl Assertion {
-    /// The assertion as a formula of the transition view.
+    /// Returns the assertion as a formula of the transition view.
     #[must_use]
     pub fn as_formula(&self, system: &System) -> Bound {
         let at = |line: &usize| Bound::Marked(system.place(PlaceRole::Line(*line)));

@@ -1,4 +1,4 @@
-//! What is assumed of the inputs of each scan: scans that begin otherwise are not explored.
+//! Assumptions about the inputs of each scan: scans that violate them are not explored.
 
 use super::assertion::Assertion;
 use super::bind::bind;
@@ -11,23 +11,23 @@ use petril_logic::Past;
 use petril_logic::View;
 use petril_logic::{Bound, Term, Valuation};
 
-/// An assumption about the inputs that a scan reads, and about the values at the end of the scan before.
+/// A bound assumption about the inputs that a scan reads, and about the values at the end of the previous scan.
 #[derive(Clone, Debug)]
 pub struct Assumption {
-    /// Its name, if it has one.
+    /// Name, if there is one.
     pub name: Option<String>,
-    /// What it says in the words of its author.
+    /// Description by the author.
     pub sentence: Option<String>,
-    /// As it was written.
+    /// Formula as written.
     pub text: String,
-    /// What is assumed, as a formula about the end of the scan: inputs are then what they were at its beginning.
+    /// Bound formula about the end of the scan, when inputs still have their values from its beginning.
     pub formula: Bound,
 }
 
 /// Binds an assumption to a program.
 ///
 /// # Errors
-/// Names that mean nothing; what looks ahead, or back further than one scan; and what the program computes in the scan itself.
+/// Unknown names; formulas that look ahead, or back further than one scan; and variables computed in the scan itself.
 pub fn bind_assumption(text: &AssumptionText, system: &System, view: View) -> Result<Assumption, Vec<Diagnostic>> {
     let unfit =
         |message: &str, help: &str| Err(vec![Diagnostic::new(Code::AssumptionUnfit, text.span, message).help(help)]);
@@ -59,20 +59,20 @@ pub fn bind_assumption(text: &AssumptionText, system: &System, view: View) -> Re
     Ok(Assumption { name, sentence, text, formula })
 }
 
-/// Whether a formula about one state speaks of nothing before the end of the scan before.
+/// Whether a state formula looks back to the end of the previous scan at most.
 pub(super) fn looks_back_one_scan(formula: &Bound) -> bool {
     let mut deep = false;
     visit(formula, false, &mut |atom| deep |= matches!(atom, Atom::TooDeep));
     !deep
 }
 
-/// What an assumption speaks of.
+/// Atom of an assumption.
 enum Atom {
     /// A variable at the end of the scan.
     Now(VarId),
-    /// A variable at the end of the scan before.
+    /// A variable at the end of the previous scan.
     Before(VarId),
-    /// More of the past.
+    /// An earlier value, or another term about the past.
     TooDeep,
 }
 
@@ -114,11 +114,11 @@ fn visit_term(term: &Term, before: bool, at: &mut dyn FnMut(Atom)) {
     }
 }
 
-/// Assumptions as the search asks for them.
+/// Assumptions as the search's filter of scans.
 pub struct Assumed<'a> {
-    /// What is assumed.
+    /// Assumptions that scans must satisfy.
     pub assumptions: &'a [Assumption],
-    /// What is asserted within scans: values from before are seen there, whether the program looks at them or not.
+    /// Assertions within scans; they read previous values, whether or not the program does.
     pub assertions: &'a [Assertion],
 }
 
@@ -147,11 +147,11 @@ impl Admission for Assumed<'_> {
     }
 }
 
-/// A moment of a scan, for what looks back to the end of the scan before and no further.
+/// A moment of a scan, for formulas that look back to the end of the previous scan at most.
 pub struct Moment<'a> {
-    /// The values at the end of the scan before, or at power-on.
+    /// Values at the end of the previous scan, or at power-on.
     pub before: &'a dyn Fn(VarId) -> u64,
-    /// The values at the moment.
+    /// Current values.
     pub now: &'a dyn Fn(VarId) -> u64,
 }
 

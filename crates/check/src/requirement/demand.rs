@@ -1,4 +1,4 @@
-//! What a requirement asks of a program, once its names mean something.
+//! Bound requirements.
 
 use super::bind::bind;
 use crate::translate::System;
@@ -7,19 +7,19 @@ use petril_logic::Bound;
 use petril_logic::View;
 use petril_logic::{Body, Requirement};
 
-/// What is asked.
+/// Bound body of a requirement.
 #[derive(Clone, Debug)]
 pub enum Demand {
-    /// That a formula is true in every initial state.
+    /// The formula must be true in every initial state.
     Formula(Bound),
-    /// That a formula, which says that something is possible, is true in some initial state: some run from power-on shows it.
+    /// The formula, a possibility, must be true in some initial state: some run from power-on is a witness.
     Possible(Bound),
-    /// That some scan comes to every line.
+    /// Every line must be executed in some scan.
     EveryLine,
 }
 
 impl Demand {
-    /// The formula, if it is one.
+    /// The formula, if there is one.
     #[must_use]
     pub fn formula(&self) -> Option<&Bound> {
         match self {
@@ -28,7 +28,7 @@ impl Demand {
         }
     }
 
-    /// The formula as text, or the pattern where the formula says something else.
+    /// Text of the formula, or of the pattern if that differs in meaning.
     #[must_use]
     pub fn text(&self, system: &System) -> Option<String> {
         match self {
@@ -42,10 +42,10 @@ impl Demand {
     }
 }
 
-/// Binds what a requirement asks for.
+/// Binds the body of a requirement.
 ///
 /// # Errors
-/// As for [`bind`]; and what the view does not have.
+/// The errors of [`bind`], and bodies that the view does not support.
 pub fn bind_requirement(requirement: &Requirement, system: &System, view: View) -> Result<Demand, Vec<Diagnostic>> {
     match &requirement.body {
         Body::Formula(formula) => bind(formula, system, view).map(Demand::Formula),

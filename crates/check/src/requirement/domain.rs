@@ -1,4 +1,4 @@
-//! What a free input can be, as it is written: `level: 0..100`, `k: 0, 3, 7`.
+//! Domains of free inputs, written like `level: 0..100` or `k: 0, 3, 7`.
 
 use crate::translate::{Domain, Domains, Plant};
 use petril_base::diagnostic::{Code, Diagnostic};
@@ -6,10 +6,10 @@ use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::Role;
 use petril_logic::DomainText;
 
-/// Adds what a line says to the domains of a program in its plant.
+/// Binds a domain, and adds it to those of a program with its plant.
 ///
 /// # Errors
-/// The name is no free input, the values are not of its type, or it has a domain already.
+/// The name is not a free input, the values are not of its type, or it already has a domain.
 pub fn bind_domain(
     text: &DomainText,
     program: &FlatProgram,

@@ -1,4 +1,4 @@
-//! Fairness assumptions: texts to formulas about one state.
+//! Binding of fairness assumptions to state formulas.
 
 use super::bind;
 use crate::translate::{PlaceRole, System};
@@ -11,11 +11,11 @@ use petril_logic::View;
 use petril_logic::{Constraint, FairnessAssumption, FairnessText, Recurrence};
 use petril_net::net::TransitionId;
 
-/// Binds the names of a fairness assumption. What it says of the plant is about the net of this very system.
+/// Binds the names of a fairness assumption. Constraints on the plant refer to the net of this system.
 ///
 /// # Errors
-/// Every name that means nothing in this view, formulas about more than one state, `released` and `pressed` of what is no input of
-/// type `BOOL`, and `plant` without one that moves.
+/// Every name that is unknown in this view, formulas about more than one state, `released` and `pressed` of variables
+/// that are not inputs of type `BOOL`, and `plant` without a plant that moves.
 pub fn bind_fairness(text: &FairnessText, system: &System, view: View) -> Result<FairnessAssumption, Vec<Diagnostic>> {
     let state = |formula: &Formula| of_one_state(formula, system, view);
     let (constraints, words) = match &text.recurrence {
@@ -42,8 +42,8 @@ pub fn bind_fairness(text: &FairnessText, system: &System, view: View) -> Result
     Ok(FairnessAssumption { words, constraints, speaks_of_time })
 }
 
-/// The PLC always scans again: in the transition view, it is not idle again and again. From an idle state `block` is always
-/// enabled, so this leaves out the runs on which it stays enabled and never fires.
+/// Fairness of the PLC in the transition view: it always scans again, that is, it is infinitely often not idle. In an
+/// idle state `block` is always enabled, so this excludes the runs on which `block` stays enabled and never fires.
 #[must_use]
 pub fn always_scanning(system: &System) -> FairnessAssumption {
     let goal = not(Bound::Marked(system.place(PlaceRole::Idle)));
@@ -63,7 +63,7 @@ fn of_one_state(formula: &Formula, system: &System, view: View) -> Result<Bound,
     Err(vec![Diagnostic::new(Code::FairnessUnfit, formula.span, message).help(help)])
 }
 
-/// Each of these inputs has a value again and again.
+/// Weak constraints that each of these inputs has a value infinitely often.
 fn inputs(
     value: bool,
     names: &[(String, Span)],
@@ -94,7 +94,7 @@ fn inputs(
     Ok((constraints, words))
 }
 
-/// The input of type `BOOL` of this name.
+/// Finds an input of type `BOOL` by name.
 fn input(name: &str, span: Span, system: &System) -> Result<VarId, Diagnostic> {
     let program = &system.program;
     let Some(input) = program.named(name) else {
@@ -114,8 +114,8 @@ fn input(name: &str, span: Span, system: &System) -> Result<VarId, Diagnostic> {
     Err(Diagnostic::new(Code::FairnessUnfit, span, message).help(help))
 }
 
-/// Each transition of the plant that changes its marking is unable to fire at the end of a scan again and again: what it needs is
-/// not there, leaving aside that the plant has to wait until the scan is over.
+/// Weak constraints that each transition of the plant that changes its marking is infinitely often disabled at the end
+/// of a scan, apart from being blocked during the scan.
 fn plant(span: Span, system: &System, view: View) -> Result<(Vec<Constraint>, String), Vec<Diagnostic>> {
     let moving = system.plant_moves().iter().filter(|&&id| !system.net.arcs(id).consume.is_empty());
     let end = system.place(PlaceRole::Line(system.program.end()));
@@ -126,7 +126,7 @@ fn plant(span: Span, system: &System, view: View) -> Result<(Vec<Constraint>, St
         let missing = missing.reduce(|f, g| Bound::Or(Box::new(f), Box::new(g)))?;
         let goal = match view {
             View::Scan => missing,
-            // What moves between two scans only, and back, stands still for the program.
+            // Moves between two scans and back are invisible to the program.
             View::Transition => Bound::And(Box::new(Bound::Marked(end)), Box::new(missing)),
         };
         let words =

@@ -1,4 +1,4 @@
-//! What names mean in a formula about a program: variables, in the transition view also lines and the nodes of its net.
+//! Names in a formula about a program: variables, and in the transition view also lines and the nodes of the net.
 
 use crate::translate::{PlaceRole, System};
 use petril_base::diagnostic::{Code, Diagnostic};
@@ -8,7 +8,7 @@ use petril_logic::{Bound, Term};
 use petril_logic::{Name, ScanTime, Spot, View, Vocabulary};
 use petril_net::net::{PlaceId, TransitionId};
 
-/// A program in its system, seen in a view.
+/// Vocabulary of a program in a view.
 pub(super) struct InProgram<'a> {
     pub system: &'a System,
     pub view: View,
@@ -107,7 +107,7 @@ impl InProgram<'_> {
         self.system.program.with_role(role).map(|variable| self.number_of(variable)).collect()
     }
 
-    /// What a variable counts.
+    /// Number held by a variable.
     fn number_of(&self, variable: VarId) -> Term {
         let ty = self.system.program.variable(variable).ty;
         if ty.is_bool() {
@@ -116,14 +116,14 @@ impl InProgram<'_> {
         if self.view == View::Scan {
             return Term::Variable(variable, ty);
         }
-        // In two's complement, the highest bit of the type counts negatively.
+        // In two's complement, the highest bit has a negative weight.
         let weight = |bit: u32| if ty.is_signed() && bit + 1 == ty.width { -(1_i128 << bit) } else { 1 << bit };
         let bits = (0..).zip(self.system.bits(variable));
         let places = bits.map(|(bit, [_, place])| (place, weight(bit))).collect();
         Term::Bits { variable, places }
     }
 
-    /// `Status.3`, if that is a bit of a variable.
+    /// Binds a bit of a variable, like `Status.3`, if the name is of that form.
     fn bit_of(&self, name: &Name<'_>) -> Result<Option<Bound>, Diagnostic> {
         let program = &self.system.program;
         let bit = name.text.rsplit_once('.').and_then(|(of, bit)| Some((of, bit.parse::<u32>().ok()?)));
@@ -138,14 +138,14 @@ impl InProgram<'_> {
             return unfit(format!("`{of}` has no bit {bit}: its bits are 0 to {}", found.ty.width - 1));
         }
         Ok(Some(match self.view {
-            // What is never stored is 0.
+            // Bits that are never stored are 0.
             _ if bit >= found.bits => Bound::Truth(false),
             View::Scan => Bound::Bit(variable, bit),
             View::Transition => Bound::Marked(self.system.place(PlaceRole::Bit { variable, bit, value: true })),
         }))
     }
 
-    /// The variable of a name.
+    /// Finds a variable by name.
     fn find(&self, name: &Name<'_>) -> Result<VarId, Diagnostic> {
         let program = &self.system.program;
         program.named(name.text).ok_or_else(|| {
@@ -154,7 +154,7 @@ impl InProgram<'_> {
         })
     }
 
-    /// Whether a `BOOL` is TRUE.
+    /// Binds the atom that a `BOOL` is TRUE.
     fn bit(&self, variable: VarId) -> Bound {
         debug_assert!(self.system.program.variable(variable).role != Role::Buffer);
         match self.view {

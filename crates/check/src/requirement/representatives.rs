@@ -1,8 +1,9 @@
-//! One value for all that neither the program nor the requirements can tell apart.
+//! Representative values of inputs: one for each class of values that neither the program nor the requirements
+//! distinguish.
 //!
-//! Two values of a free input that give the same answer to every comparison made with it lead to the same values of all
-//! other variables, and make the same formulas true: the states that differ in nothing else are bisimilar. So one of them
-//! is enough.
+//! Two values of a free input with the same result in every comparison made with it lead to the same values of all
+//! other variables, and make the same formulas true: states that differ only in them are bisimilar. So one of them is
+//! enough (data abstraction).
 
 use crate::translate::{Domain, Domains, System};
 use petril_lang::flat::{Cuts, FlatProgram};
@@ -11,8 +12,8 @@ use petril_logic::Comparison;
 use petril_logic::Past;
 use petril_logic::{Bound, Term};
 
-/// For each free input without a domain that the program and the formulas, which are bound for the scan view, only compare
-/// with constants: values that stand for all others.
+/// Computes representative values for each free input without a domain that the program and the formulas, which are
+/// bound for the scan view, only compare with constants.
 #[must_use]
 pub fn representatives(system: &System, formulas: &[&Bound]) -> Domains {
     let program = &system.program;
@@ -26,13 +27,13 @@ pub fn representatives(system: &System, formulas: &[&Bound]) -> Domains {
         .collect()
 }
 
-/// Where values of an input can be told apart, if they are compared with constants only.
+/// Cuts between distinguishable values of an input; `None` if it is not only compared with constants.
 fn cuts(program: &FlatProgram, input: VarId, formulas: &[&Bound]) -> Option<Cuts> {
     let mut cuts = program.compared(input)?;
     formulas.iter().all(|formula| add(formula, input, &mut cuts)).then_some(cuts)
 }
 
-/// The value next to 0 of each interval between two cuts.
+/// Domain of the value nearest to 0 of each interval between two cuts.
 fn domain(program: &FlatProgram, input: VarId, cuts: &Cuts) -> Option<Domain> {
     let ty = program.variable(input).ty;
     let mut values = Vec::new();
@@ -46,7 +47,7 @@ fn domain(program: &FlatProgram, input: VarId, cuts: &Cuts) -> Option<Domain> {
     Domain::new(ty, values).map(Domain::standing_for_all)
 }
 
-/// Adds where a formula tells values of an input apart; says whether it does so by comparisons with constants only.
+/// Adds the cuts of an input by a formula; returns whether the formula only compares it with constants.
 fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
     match formula {
         Bound::Truth(_) | Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => true,
@@ -77,7 +78,7 @@ fn add(formula: &Bound, input: VarId, cuts: &mut Cuts) -> bool {
     }
 }
 
-/// Whether a term is what the input is now, or was before: both are told apart by the same comparisons.
+/// Whether a term is the current or an earlier value of the input; the same cuts apply to both.
 fn is_input(term: &Term, input: VarId) -> bool {
     match term {
         Term::Variable(variable, _) => *variable == input,
@@ -86,7 +87,8 @@ fn is_input(term: &Term, input: VarId) -> bool {
     }
 }
 
-/// The same of a number that is not the input itself.
+/// Adds the cuts of an input by a term that is not the input itself; returns whether the term only compares it with
+/// constants.
 fn add_term(term: &Term, input: VarId, cuts: &mut Cuts) -> bool {
     match term {
         Term::Number(_) | Term::Tokens(_) => true,
@@ -104,7 +106,7 @@ fn add_term(term: &Term, input: VarId, cuts: &mut Cuts) -> bool {
     }
 }
 
-/// The value of a term that is the same in every state.
+/// Value of a constant term.
 fn constant(term: &Term) -> Option<i128> {
     match term {
         Term::Number(number) => Some(*number),
@@ -115,8 +117,8 @@ fn constant(term: &Term) -> Option<i128> {
     }
 }
 
-/// Where the comparison of a number with a constant on its right tells numbers apart. The constants of formulas have about
-/// 64 bits, products of them at most 126.
+/// Cuts by the comparison of a number with a constant on its right. Constants of formulas have about 64 bits, products
+/// of them at most 126.
 fn told_apart(comparison: Comparison, number: i128) -> Vec<i128> {
     match comparison {
         Comparison::Greater | Comparison::AtMost => vec![number],
@@ -125,7 +127,7 @@ fn told_apart(comparison: Comparison, number: i128) -> Vec<i128> {
     }
 }
 
-/// The comparison with its sides exchanged.
+/// Comparison with its sides exchanged.
 fn mirrored(comparison: Comparison) -> Comparison {
     match comparison {
         Comparison::Greater => Comparison::Less,

@@ -1,4 +1,4 @@
-//! What packed states say of atoms, in both views.
+//! Valuations of atoms in packed states, for both views.
 
 use crate::scans::ScanSpace;
 use petril_base::PlaceId;
@@ -7,7 +7,8 @@ use petril_logic::Valuation;
 use petril_logic::{History, Past, remembered};
 use petril_search::Observer;
 
-/// A packed scan state. Formulas bound for the scan view speak of variables, and fairness assumptions of the plant's places.
+/// Valuation of a packed scan state. Formulas bound for the scan view contain variables, and fairness assumptions
+/// places of the plant.
 pub struct ScanValuation<'a>(pub &'a ScanSpace<'a>, pub &'a [u64]);
 
 impl Valuation for ScanValuation<'_> {
@@ -20,15 +21,15 @@ impl Valuation for ScanValuation<'_> {
     }
 }
 
-/// A packed scan state beside what is remembered of those before it.
+/// Valuation of a packed scan state with its memory of the past.
 pub struct RememberingValuation<'a> {
-    /// The space of the state.
+    /// State space of the scan view.
     pub space: &'a ScanSpace<'a>,
-    /// The state.
+    /// Packed state.
     pub state: &'a [u64],
-    /// What is remembered.
+    /// Terms about the past that are remembered.
     pub history: &'a History,
-    /// The memory, or as much of it as is known already.
+    /// Memory of the state, or the part computed so far.
     pub memory: &'a [u64],
 }
 
@@ -48,16 +49,16 @@ impl Valuation for RememberingValuation<'_> {
     }
 }
 
-/// Remembers what formulas know of the past, along scan states.
+/// Observer that evaluates terms about the past along scan states.
 pub struct Remembering<'a> {
-    /// The space of the states.
+    /// State space of the scan view.
     pub space: &'a ScanSpace<'a>,
-    /// What is remembered.
+    /// Terms about the past that are remembered.
     pub history: &'a History,
 }
 
 impl<'a> Remembering<'a> {
-    /// A state with its memory.
+    /// Valuation of a state with its memory.
     #[must_use]
     pub fn at(&self, state: &'a [u64], memory: &'a [u64]) -> RememberingValuation<'a> {
         RememberingValuation { space: self.space, state, history: self.history, memory }

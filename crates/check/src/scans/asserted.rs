@@ -1,4 +1,4 @@
-//! What holds whenever control comes to a line: every scan of a graph is run by the interpreter and looked at on the way.
+//! Assertions at lines: every scan of a graph is run by the interpreter and checked whenever control reaches a line.
 
 use rayon::prelude::*;
 
@@ -9,29 +9,28 @@ use petril_lang::semantics::{Role, VarId};
 use petril_search::Graph;
 use petril_search::StateSpace;
 
-/// A scan in which something was seen.
+/// A scan in which an assertion fails.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Seen {
-    /// The state before the scan; `None` is power-on.
+    /// State before the scan; `None` is power-on.
     pub from: Option<u32>,
-    /// The marking of each plant component during the scan.
+    /// Marking of each plant component during the scan.
     pub plant: Vec<usize>,
-    /// The inputs it reads.
+    /// Values of the inputs in the scan.
     pub inputs: Vec<(VarId, u64)>,
-    /// Position of the line, in the list of those that were watched.
+    /// Position of the line in the list of watched lines.
     pub watched: usize,
 }
 
-/// States whose scans are run together.
+/// Number of states per thread in a batch.
 const TOGETHER: usize = 64;
 
-/// Whether something is wrong, for the position of a watched line in the list, the values of the variables before the scan, and those
-/// that they have now.
+/// Predicate for a failing assertion: position of the watched line, values of the variables before the scan, current
+/// values.
 type IsWrong<'a> = &'a (dyn Fn(usize, &dyn Fn(VarId) -> u64, &dyn Fn(VarId) -> u64) -> bool + Sync);
 
-/// Runs every scan of a graph, and asks `is_wrong` whenever control comes to one of the watched lines. For each watched line, the nearest scan in which the
-/// answer was yes; nothing at all if `stopped` says so meanwhile, or no scan can
-/// be run.
+/// Runs every scan of a graph, and calls `is_wrong` whenever control reaches a watched line. Returns for each watched
+/// line the nearest scan in which it was true; `None` if `stopped` becomes true meanwhile, or no scan can be run.
 #[must_use]
 pub fn first_at_lines(
     space: &ScanSpace<'_>,
@@ -65,13 +64,13 @@ pub fn first_at_lines(
 struct Runner<'a, 's> {
     space: &'a ScanSpace<'s>,
     graph: &'a Graph,
-    /// What is watched at each line.
+    /// Watched lines, by line of the program.
     at: &'a [Vec<usize>],
     is_wrong: IsWrong<'a>,
 }
 
 impl Runner<'_, '_> {
-    /// What is seen in the scans from a state, once for each watched line.
+    /// Failures in the scans from a state, at most one for each watched line.
     fn scans(&self, from: Option<u32>) -> Vec<Seen> {
         let before = self.space.state(from, self.graph);
         let mut found: Vec<Seen> = Vec::new();
@@ -88,10 +87,10 @@ impl Runner<'_, '_> {
         found
     }
 
-    /// Runs one scan, to its end or until it repeats a state.
+    /// Runs one scan to its end, or until it repeats a state.
     fn scan(&self, machine: &mut Machine<'_>, before: &[u64], wrong: &mut dyn FnMut(usize)) {
         machine.begin_scan();
-        // A state that is kept twice as long each time is met again by a scan that never ends.
+        // Endless scans are found by Brent's algorithm: a state kept twice as long each time is met again.
         let (mut kept, mut steps, mut limit) = (machine.clone(), 0_usize, 64_usize);
         loop {
             for &watched in &self.at[machine.line()] {

@@ -1,4 +1,4 @@
-//! Which lines of a program are executed in some scan.
+//! Coverage: the lines of a program that are executed in some scan.
 
 use std::collections::BTreeSet;
 
@@ -10,14 +10,15 @@ use petril_lang::circuit::{Circuit, LANES, Scratch};
 use petril_lang::flat::{Condition, FlatProgram, Instruction};
 use petril_search::Graph;
 
-/// States looked at one after another before all are looked at: mostly every line is seen soon.
+/// Number of states tried one after another first: usually every line is covered soon.
 const FIRST: usize = 256;
 
-/// States looked at between two questions whether to stop.
+/// Number of states between two calls of `stop`.
 const BATCH: usize = 256 * FIRST;
 
-/// The lines, from 0, that control never comes to, be it that no jump leads there or that none of them is ever taken. The graph must be
-/// a complete one of the space. `stop` is asked now and then; if it says so, nothing is known.
+/// The lines, from 0, that control never reaches, whether no jump leads there or none of these jumps is ever taken. The
+/// graph must be the complete one of the space. `stop` is called now and then; if it returns true, the result is
+/// `None`.
 pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut() -> bool) -> Option<Vec<usize>> {
     let program = &space.system().program;
     let possible = possible_lines(program);
@@ -60,14 +61,14 @@ pub fn never_executed(space: &ScanSpace<'_>, graph: &Graph, stop: &mut dyn FnMut
     Some(missing(&executed))
 }
 
-/// States whose scans are all there are: power-on, which is `None`, and the first state of each row.
+/// States whose scans represent all scans: power-on, which is `None`, and the first state of each row.
 pub(super) fn starts(graph: &Graph) -> Vec<Option<u32>> {
     let mut rows = BTreeSet::new();
     let firsts = graph.ids().filter(|&id| graph.row_of(id).is_some_and(|row| rows.insert(row))).map(Some);
     std::iter::once(None).chain(firsts).collect()
 }
 
-/// Executes every scan from a state, and marks the lines.
+/// Executes every scan from a state, and marks the lines executed.
 fn execute(space: &ScanSpace<'_>, from: &ScanState, executed: &mut FixedBitSet) {
     space.beginnings(from, &mut |machine, _| {
         machine.begin_scan();
@@ -79,7 +80,7 @@ fn execute(space: &ScanSpace<'_>, from: &ScanState, executed: &mut FixedBitSet) 
     });
 }
 
-/// The same for states of the graph, many scans at once.
+/// Executes every scan from states of the graph by the circuit, and marks the lines executed.
 fn execute_together(
     space: &ScanSpace<'_>,
     circuit: &Circuit,
@@ -101,7 +102,7 @@ fn execute_together(
     circuit.reach(&lanes, &mut scratch, executed);
 }
 
-/// The lines and the end, as far as control can come to them by the jumps there are.
+/// The lines, and the end, that are reachable in the control-flow graph.
 fn possible_lines(program: &FlatProgram) -> FixedBitSet {
     let mut possible = FixedBitSet::with_capacity(program.end() + 1);
     let mut work = vec![0];

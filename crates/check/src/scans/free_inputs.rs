@@ -1,29 +1,30 @@
-//! The inputs that no plant drives: the values that each scan may read, one combination after another.
+//! Free inputs: those that no plant drives. Enumerates the combinations of values that a scan may read.
 
 use smallvec::{SmallVec, smallvec};
 
 use crate::translate::{Domain, System};
 use petril_lang::semantics::VarId;
 
-/// States have at most this many successors for their plant's marking; more would take minutes and gigabytes for one state.
+/// Maximum number of successors of a state per marking of the plant; more would take minutes and gigabytes for one
+/// state.
 pub const MAX_FAN_OUT: u128 = 1 << 24;
 
-/// The free inputs of a system, with their values.
+/// Free inputs of a system, with their values.
 pub struct FreeInputs {
     inputs: Vec<FreeInput>,
 }
 
-/// A free input and what it may be.
+/// A free input and its possible values.
 struct FreeInput {
     variable: VarId,
     name: String,
     domain: Domain,
-    /// The values as patterns, in the order in which they are tried: 0 comes before numbers below 0.
+    /// Bit patterns of the values in the order in which they are tried: 0 comes before negative numbers.
     patterns: Vec<u64>,
 }
 
 impl FreeInputs {
-    /// The free inputs of a system.
+    /// Collects the free inputs of a system.
     pub fn new(system: &System) -> Self {
         let free = system.free_inputs().map(|variable| FreeInput {
             variable,
@@ -32,7 +33,7 @@ impl FreeInputs {
             patterns: Vec::new(),
         });
         let mut free = Self { inputs: free.collect() };
-        // Beyond that, nobody will ask for them.
+        // With more combinations the patterns are never used.
         if free.combinations() <= MAX_FAN_OUT {
             for input in &mut free.inputs {
                 input.patterns = input.domain.patterns().collect();
@@ -42,12 +43,12 @@ impl FreeInputs {
         free
     }
 
-    /// How many combinations of values there are.
+    /// Number of combinations of values.
     pub fn combinations(&self) -> u128 {
         self.inputs.iter().fold(1, |product, input| product.saturating_mul(input.domain.size()))
     }
 
-    /// Why there are too many combinations to try, and what to do about it.
+    /// Explains why there are too many combinations to try, and what to do about it; `None` if there are not.
     pub fn refusal(&self) -> Option<String> {
         if self.combinations() <= MAX_FAN_OUT {
             return None;
@@ -73,7 +74,7 @@ impl FreeInputs {
         Some(format!("a scan can read more than {MAX_FAN_OUT} combinations of values of the inputs {names}: {advice}"))
     }
 
-    /// Calls `each` once for each combination. The last input changes fastest.
+    /// Calls `each` with each combination once. The last input changes fastest.
     pub fn for_each(&self, mut each: impl FnMut(&Setting<'_>)) {
         let mut digits: SmallVec<[usize; 16]> = smallvec![0; self.inputs.len()];
         let mut turned = 0;
@@ -88,11 +89,11 @@ impl FreeInputs {
     }
 }
 
-/// One combination of values.
+/// A combination of values.
 pub struct Setting<'f> {
     inputs: &'f [FreeInput],
     digits: &'f [usize],
-    /// The first input whose value is not that of the combination before.
+    /// Position of the first input whose value differs from the previous combination.
     turned: usize,
 }
 
@@ -103,7 +104,8 @@ impl Setting<'_> {
         inputs.map(|(input, &digit)| (input.variable, input.patterns[digit]))
     }
 
-    /// The inputs that had other values in the combination before, all of them in the first.
+    /// The inputs from the first whose value differs from the previous combination, with their values; all of them in
+    /// the first.
     pub fn changed(&self) -> impl Iterator<Item = (VarId, u64)> {
         self.values().skip(self.turned)
     }

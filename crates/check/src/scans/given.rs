@@ -1,32 +1,32 @@
-//! One run of the scan view whose inputs are given: what would have happened if an input had been another one.
+//! A run of the scan view with given inputs, to answer what would have happened with other inputs.
 //!
-//! The inputs do not always tell which markings the devices are in, so all that fit are kept. Devices move independently of each
-//! other, and look at nothing but outputs; so a list for each device says exactly which runs there are.
+//! The inputs do not always determine the markings of the devices, so all that fit are kept. Devices move independently
+//! of each other and depend only on outputs, so a list of markings for each device describes the possible runs exactly.
 
 use super::scan_space::{ScanSpace, ScanState};
 use petril_lang::interpret::Machine;
 use petril_lang::semantics::{Role, VarId};
 
-/// Where such a run is at the end of a scan, or at power-on.
+/// Position of a run with given inputs at the end of a scan, or at power-on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Position {
-    /// The values of all variables; those of buffers are 0.
+    /// Values of all variables; those of buffers are 0.
     pub memory: Vec<u64>,
-    /// For each device, the markings it can be in, ascending.
+    /// Possible markings of each device, ascending.
     pub plant: Vec<Vec<usize>>,
 }
 
 impl ScanSpace<'_> {
-    /// The position at power-on.
+    /// Position at power-on.
     #[must_use]
     pub fn beginning(&self) -> Position {
         let ScanState { plant, memory } = self.power_on();
         Position { memory, plant: plant.into_iter().map(|marking| vec![marking]).collect() }
     }
 
-    /// The end of the scan that reads these inputs: one value for each input of the program. `None` if the system has no such
-    /// scan: a value lies outside its domain, the plant cannot give it now, something assumed forbids it, or the scan ends in an error or
-    /// not at all.
+    /// Runs the scan that reads these inputs, one value for each input of the program. `None` if the system has no such
+    /// scan: a value is outside its domain, the plant cannot give it now, an assumption excludes it, or the scan ends
+    /// in an error or does not end.
     #[must_use]
     pub fn scan_reading(&self, from: &Position, inputs: &[(VarId, u64)]) -> Option<Position> {
         let system = self.system();
@@ -64,20 +64,20 @@ impl ScanSpace<'_> {
         Some(Position { memory: (0..system.program.variables.len()).map(VarId).map(kept).collect(), plant })
     }
 
-    /// A packed state with the memory of a position, and some markings that fit.
+    /// Packed state with the memory of a position and some markings that fit.
     #[must_use]
     pub fn packed_position(&self, position: &Position) -> Vec<u64> {
         let plant: Vec<usize> = position.plant.iter().map(|fitting| fitting[0]).collect();
         self.packed(&plant, &position.memory)
     }
 
-    /// The packed states of a run, from its first scan on: of the markings that fit its inputs, some that follow each other.
+    /// Packed states of a run, from its first scan on, with markings that fit its inputs and follow each other.
     #[must_use]
     pub fn packed_run(&self, ends: &[Position]) -> Vec<Vec<u64>> {
         let mut later: Option<Vec<usize>> = None;
         let mut states: Vec<Vec<u64>> = Vec::with_capacity(ends.len());
         for end in ends.iter().rev() {
-            // The last scan may end in any marking that fits, the others in one that the next one can be reached from.
+            // The last scan may end in any marking that fits, the others in one from which the next one can be reached.
             let leads_on =
                 |component: usize, marking: usize| match (&later, self.system().plant.components.get(component)) {
                     (Some(later), Some(device)) => {

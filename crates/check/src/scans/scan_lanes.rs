@@ -1,19 +1,19 @@
-//! Scans on the way through a [`Circuit`]: collected until there are enough, run together, and given to their states.
+//! Batches of scans for a [`Circuit`]: collected until a batch is full, run together, and returned to their states.
 
 use super::scan_space::ScanSpace;
 use crate::scans::Failure;
 use petril_lang::circuit::{Circuit, LANES, Scratch};
 use petril_search::{Step, Successors};
 
-/// Scans that were not run yet. One of those that are run together is confirmed by the interpreter.
+/// Batch of scans not yet run. One scan of each batch is confirmed by the interpreter.
 pub(super) struct Lanes<'s> {
     space: &'s ScanSpace<'s>,
     circuit: &'s Circuit,
-    /// Words of a state.
+    /// Number of words of a state.
     words: usize,
-    /// What the scans begin with.
+    /// States in which the scans begin.
     states: Vec<u64>,
-    /// After so many lanes the steps out of a state are complete, in ascending order.
+    /// Numbers of lanes, ascending, after which the steps out of a state are complete.
     ends: Vec<usize>,
     scratch: Scratch,
 }
@@ -24,7 +24,7 @@ impl<'s> Lanes<'s> {
         Self { space, circuit, words, states, ends: Vec::new(), scratch: Scratch::default() }
     }
 
-    /// Adds a scan from the state at hand.
+    /// Adds a scan from the current state.
     pub(super) fn add(&mut self, begin: &[u64], into: &mut Successors) {
         self.states.extend_from_slice(begin);
         if self.states.len() == LANES * self.words {
@@ -32,12 +32,12 @@ impl<'s> Lanes<'s> {
         }
     }
 
-    /// All scans from the state at hand were added.
+    /// Ends the scans from the current state.
     pub(super) fn finish(&mut self) {
         self.ends.push(self.states.len() / self.words);
     }
 
-    /// Runs the scans there are.
+    /// Runs the scans of the batch.
     pub(super) fn run(&mut self, into: &mut Successors) {
         let begin = self.states.get(..self.words).map(<[u64]>::to_vec);
         let mut failures: Vec<(usize, Failure)> = Vec::new();

@@ -1,11 +1,11 @@
-//! The scan view: a state is what there is at the end of a scan, a step is one scan.
+//! The scan view: a state is the system at the end of a scan, a step is one scan.
 //!
-//! A state is packed as the marking of each plant component and the bits of each declared variable. Between two scans the
-//! plant makes any number of moves and free inputs take any value of their domains; then the program runs, computed by the
-//! interpreter. What lies between is not stored. Leaving out the current result and the buffers is sound: the static rules
-//! see to it that neither is read in a scan before it is written.
+//! A state is packed as the marking of each plant component and the bits of each declared variable. Between two scans
+//! the plant makes any number of moves and free inputs take any value of their domains; then the program runs, executed
+//! by the interpreter or by gates. Intermediate states are not stored. Leaving out the current result and the buffers
+//! is sound, because the static rules ensure that neither is read in a scan before it is written.
 //!
-//! A scan that meets a hazard leads nowhere, unless the hazard is tolerated: what a PLC does after it is not known.
+//! A scan with a hazard has no successor, unless the hazard is tolerated: the behaviour of a PLC after it is unknown.
 
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,40 +24,40 @@ use petril_search::Graph;
 use petril_search::{StateSpace, Step, Successors};
 use smallvec::SmallVec;
 
-/// The scan states of a system.
+/// State space of the scan view of a system.
 pub struct ScanSpace<'s> {
     system: &'s System,
     tolerated: Tolerated,
-    /// Where each plant component's marking stands in a state.
+    /// Field of each plant component's marking in a state.
     components: Vec<Field>,
-    /// The position of each component's first place in the net; the others follow it.
+    /// Position of each component's first place in the net; its other places follow.
     places: Vec<usize>,
-    /// Where each variable stands in a state; buffers have no bits there.
+    /// Field of each variable in a state; buffers have no bits.
     variables: Vec<(VarId, Field)>,
     free_inputs: FreeInputs,
     words: usize,
-    /// The bits that make a difference to later scans: the plant's markings, what the program carries over, and the outputs
-    /// the plant looks at.
+    /// Mask of the bits on which later scans depend: the plant's markings, the variables that carry values over, and
+    /// the outputs that the plant reads.
     relevant: Vec<u64>,
-    /// The scan as gates, if that is faster.
+    /// Scan as gates, if that is faster.
     circuit: Option<Circuit>,
-    /// What is assumed of the inputs.
+    /// Assumptions about the inputs.
     admission: Option<&'s dyn Admission>,
-    /// The gates and the interpreter were seen to disagree.
+    /// Whether the gates and the interpreter have disagreed.
     is_refuted: AtomicBool,
 }
 
-/// A scan state in plain form.
+/// Unpacked scan state.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanState {
-    /// The marking of each plant component, as a position in its list of markings.
+    /// Marking of each plant component, as a position in its list of markings.
     pub plant: Vec<usize>,
-    /// The values of all variables of the program; those of buffers mean nothing.
+    /// Values of all variables of the program; those of buffers are meaningless.
     pub memory: Vec<u64>,
 }
 
 impl ScanState {
-    /// A system at power-on, before the first scan. It is no state of the scan view.
+    /// The system at power-on, before the first scan. Not a state of the scan view.
     #[must_use]
     pub fn power_on(system: &System) -> Self {
         Self {
@@ -67,31 +67,31 @@ impl ScanState {
     }
 }
 
-/// One scan that was computed.
+/// A scan that was executed.
 #[derive(Clone, Copy, Debug)]
 pub struct ScanRun<'a> {
-    /// The marking of each plant component during the scan.
+    /// Marking of each plant component during the scan.
     pub plant: &'a [usize],
-    /// The machine at its end, or somewhere in the loop it never leaves.
+    /// Machine at the end of the scan, or somewhere in the loop of an endless one.
     pub machine: &'a Machine<'a>,
-    /// The packed state at its end, or why it leads nowhere.
+    /// Packed state at the end of the scan, or the failure.
     pub end: Result<&'a [u64], Failure>,
 }
 
 impl<'s> ScanSpace<'s> {
-    /// The space of a system, every hazard being an error.
+    /// Makes the space of a system, with every hazard an error.
     #[must_use]
     pub fn new(system: &'s System) -> Self {
         Self::tolerating(system, Tolerated::default())
     }
 
-    /// The space of a system in which some hazards are no errors.
+    /// Makes the space of a system in which some hazards are not errors.
     #[must_use]
     pub fn tolerating(system: &'s System, tolerated: Tolerated) -> Self {
         Self::assuming(system, tolerated, None)
     }
 
-    /// The same of scans that may begin only as something admits.
+    /// Makes the space of a system in which only admitted scans can begin.
     #[must_use]
     pub fn assuming(system: &'s System, tolerated: Tolerated, admission: Option<&'s dyn Admission>) -> Self {
         let mut layout = Layout::new();
@@ -127,19 +127,19 @@ impl<'s> ScanSpace<'s> {
         }
     }
 
-    /// The system.
+    /// The system explored.
     #[must_use]
     pub fn system(&self) -> &'s System {
         self.system
     }
 
-    /// Whether scans are computed by gates, many at once; else the interpreter computes one after another.
+    /// Whether scans are computed by gates, many at once; otherwise the interpreter runs them one after another.
     #[must_use]
     pub fn has_gates(&self) -> bool {
         self.circuit.is_some()
     }
 
-    /// A state in plain form.
+    /// Unpacks a state.
     #[must_use]
     pub fn unpack(&self, state: &[u64]) -> ScanState {
         let mut memory = vec![0; self.system.program.variables.len()];
@@ -149,13 +149,14 @@ impl<'s> ScanSpace<'s> {
         ScanState { plant: self.components.iter().map(|field| field.get(state) as usize).collect(), memory }
     }
 
-    /// The value of a declared variable in a state.
+    /// Value of a declared variable in a state.
     #[must_use]
     pub fn value(&self, state: &[u64], variable: VarId) -> u64 {
         self.variables[variable.0].1.get(state)
     }
 
-    /// Whether a place of the plant or of a declared variable's bit is marked at the end of the scan; the others are not.
+    /// Whether a place of the plant or of a declared variable's bit is marked at the end of the scan; false for other
+    /// places.
     #[must_use]
     pub fn is_marked(&self, state: &[u64], place: PlaceId) -> bool {
         match self.system.places[place.index()] {
@@ -169,19 +170,19 @@ impl<'s> ScanSpace<'s> {
         }
     }
 
-    /// A state of the graph of this space in plain form; `None` is power-on.
+    /// Unpacked state of the graph of this space; `None` is power-on.
     #[must_use]
     pub(super) fn state(&self, id: Option<u32>, graph: &Graph) -> ScanState {
         id.map_or_else(|| self.power_on(), |id| self.unpack(graph.state(id)))
     }
 
-    /// The system at power-on, before the first scan. It is no scan state.
+    /// The system at power-on, before the first scan. Not a scan state.
     #[must_use]
     pub fn power_on(&self) -> ScanState {
         ScanState::power_on(self.system)
     }
 
-    /// The same packed.
+    /// Packed form of the system at power-on.
     #[must_use]
     pub fn packed_power_on(&self) -> Vec<u64> {
         let mut state = vec![0; self.words];
@@ -197,19 +198,19 @@ impl<'s> ScanSpace<'s> {
         self.variables.iter().for_each(|&(variable, field)| field.set(state, value(variable)));
     }
 
-    /// A state in packed form.
+    /// Packs a state.
     pub(super) fn packed(&self, plant: &[usize], memory: &[u64]) -> Vec<u64> {
         let mut state = vec![0; self.words];
         self.pack(plant, |variable| memory[variable.0], &mut state);
         state
     }
 
-    /// What tells which lines a scan executes, for [`ScanSpace::packed_beginnings`].
+    /// Circuit that computes which lines are executed in scans from [`ScanSpace::packed_beginnings`].
     pub(super) fn line_circuit(&self) -> Option<Circuit> {
         Circuit::of_lines(&self.system.program, self.tolerated, &self.variables, self.words)
     }
 
-    /// For each component, the markings it can be in when the next scan begins.
+    /// Markings that each component can have when the next scan begins.
     fn plant_choices(&self, plant: impl Fn(usize) -> usize, output: impl Fn(VarId) -> u64) -> Vec<Vec<usize>> {
         let components = self.system.plant.components.iter().enumerate();
         components
@@ -220,22 +221,22 @@ impl<'s> ScanSpace<'s> {
             .collect()
     }
 
-    /// Whether a scan may begin with these values after one that ended with those.
+    /// Whether a scan may begin with the values `now` after one that ended with the values `before`.
     pub(super) fn admits(&self, before: &dyn Fn(VarId) -> u64, now: &dyn Fn(VarId) -> u64) -> bool {
         self.admission.is_none_or(|admission| admission.admits(before, now))
     }
 
-    /// Runs a scan, whose inputs have been set.
+    /// Runs a scan on a machine whose inputs have been set.
     pub(super) fn scan(&self, machine: &mut Machine<'_>) -> Result<(), Failure> {
         let ended = machine.scan();
         match self.tolerated.first_error(machine.hazards()) {
-            // It comes before whatever keeps the scan from ending.
+            // The error comes before anything that keeps the scan from ending.
             Some((line, hazard)) => Err(Failure::Hazard(line, hazard)),
             None => ended.map_err(Failure::Scan),
         }
     }
 
-    /// Calls `visit` for the scan from a state under each choice of plant markings and free inputs.
+    /// Calls `visit` with the scan from a state for each choice of plant markings and free inputs.
     pub fn scans(&self, from: &ScanState, visit: &mut dyn FnMut(ScanRun<'_>)) {
         let mut state = vec![0; self.words];
         self.beginnings(from, &mut |machine, plant| {
@@ -245,7 +246,7 @@ impl<'s> ScanSpace<'s> {
         });
     }
 
-    /// Calls `visit` for the machine before each scan from a state, its inputs set, with the plant's markings.
+    /// Calls `visit` with the machine before each scan from a state, its inputs set, and the plant's markings.
     pub(super) fn beginnings<'m>(&'m self, from: &ScanState, visit: &mut dyn FnMut(&mut Machine<'m>, &[usize])) {
         let choices = self.plant_choices(|component| from.plant[component], |output| from.memory[output.0]);
         let mut machine = Machine::new(&self.system.program);
@@ -263,7 +264,7 @@ impl<'s> ScanSpace<'s> {
         });
     }
 
-    /// Calls `visit` for each packed state in which a scan from a packed state begins.
+    /// Calls `visit` with each packed state in which a scan from a packed state begins.
     pub(super) fn packed_beginnings(&self, from: &[u64], mut visit: impl FnMut(&[u64])) {
         let field = |input: VarId| self.variables[input.0].1;
         let mut begin: SmallVec<[u64; 8]> = SmallVec::from_slice(from);
@@ -288,7 +289,8 @@ impl<'s> ScanSpace<'s> {
         self.plant_choices(plant, |output| self.value(from, output))
     }
 
-    /// Whether the interpreter ends a scan from a packed state in this way too. If not, the space is refused from now on.
+    /// Checks that the interpreter ends a scan from a packed state in the same way. If not, the space is refused from
+    /// now on.
     pub(super) fn confirm(&self, begin: &[u64], end: Result<&[u64], Failure>) {
         let mut machine = Machine::new(&self.system.program);
         machine.restore(&self.unpack(begin).memory);
@@ -301,7 +303,7 @@ impl<'s> ScanSpace<'s> {
     }
 }
 
-/// Calls `each` for each choice of one from each list, the last list fastest.
+/// Calls `each` with each choice of one element from each list; the last list changes fastest.
 fn combinations(lists: &[Vec<usize>], mut each: impl FnMut(&[usize])) {
     let mut digits = vec![0; lists.len()];
     let mut chosen = vec![0; lists.len()];

@@ -1,8 +1,9 @@
-//! A scan as gates: flat code is executed once, with wires instead of bits.
+//! Symbolic execution of a scan: flat code is executed once, with wires instead of bits.
 //!
-//! Where control divides, each part knows when it is the one that is executed; where parts meet again, what they disagree on
-//! is chosen by that. A program whose control goes back is left to the interpreter, and so is one that would take too many gates;
-//! whoever computes with the gates also leaves it those that multiply, divide, or shift by what they compute.
+//! Where control branches, each branch has a wire that says when it is taken; where branches join, multiplexers choose
+//! between their values by these wires. Programs with backward jumps are left to the interpreter, and so are those that
+//! would take too many gates. Gates for simulation leave out multiplication, division, and shifts by computed distances
+//! too.
 
 use std::collections::BTreeMap;
 
@@ -12,52 +13,53 @@ use super::products;
 use crate::flat::{Condition, Element, FlatProgram, Function, Hazard, Instruction, Operand, Target, Tolerated};
 use crate::semantics::{Type, VarId};
 
-/// What a scan computes from the bits of all variables.
+/// A scan as a function of the bits of all variables.
 pub(super) struct Compiled {
     pub(super) network: Network,
     /// The bits of each variable at the end of the scan.
     pub(super) memory: Vec<Vec<Wire>>,
-    /// When the scan meets an error first in this line.
+    /// Conditions under which the first error of the scan is in this line.
     pub(super) errors: Vec<(Wire, usize, Hazard)>,
-    /// When control comes to the lines from this one on, up to that of the next entry.
+    /// Conditions under which control reaches the lines from this one up to that of the next entry.
     pub(super) lines: Vec<(usize, Wire)>,
 }
 
-/// How large a network may be, and what it may be made of.
+/// Limits on the size and the kinds of gates of a network.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Gates, at most.
+    /// Maximum number of gates.
     gates: usize,
-    /// Whether products, quotients, and shifts by what is computed are made. They take thousands of gates for one instruction.
+    /// Whether products, quotients, and shifts by computed distances are allowed. They take thousands of gates each.
     products: bool,
 }
 
 impl Limits {
-    /// For gates that compute scans: the interpreter takes about as long for a line as 256 lanes take for a hundred gates.
+    /// Limits for gates that simulate scans: 256 lanes evaluate a hundred gates in about the interpreter's time for a
+    /// line.
     pub(super) fn for_lanes(program: &FlatProgram) -> Self {
         Self { gates: (program.end() * 100).clamp(1000, 1 << 18), products: false }
     }
 
-    /// For gates that are reasoned about.
+    /// Limits for gates that proofs are made of.
     pub(super) const FOR_PROOFS: Self = Self { gates: 1 << 22, products: true };
 }
 
-/// Bits of an array that is indexed, at most.
+/// Maximum number of bits of an array that is indexed.
 const ARRAY_BITS: usize = 1 << 15;
 
-/// Why gates do not serve, with the line (from 0).
+/// Reason why a scan has no gates, with the line (from 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoGates {
-    /// Control goes back there, so the scan may have any length.
+    /// The line jumps backward, so the scan may have any length.
     Back(usize),
-    /// What is computed there is left to the interpreter.
+    /// The instruction of the line is left to the interpreter.
     Instruction(usize),
-    /// There are too many by then.
+    /// The limit on the number of gates is exceeded at the line.
     TooMany(usize),
 }
 
 impl NoGates {
-    /// The line.
+    /// The line (from 0).
     #[must_use]
     pub fn line(self) -> usize {
         let (Self::Back(line) | Self::Instruction(line) | Self::TooMany(line)) = self;
@@ -65,7 +67,8 @@ impl NoGates {
     }
 }
 
-/// Compiles a scan that begins with these bits of each variable, wires of a network with so many inputs.
+/// Compiles a scan to a network with `inputs` inputs; `beginning` has the wires of each variable at the beginning of
+/// the scan.
 pub(super) fn compile(
     program: &FlatProgram,
     tolerated: Tolerated,
@@ -82,7 +85,7 @@ pub(super) fn compile(
     }
     let mut compiler = Compiler { program, tolerated, limits, network, starts, errors: Vec::new(), lines: Vec::new() };
     let start = Flow { active: Wire::TRUE, result: Vec::new(), memory };
-    // Without a way to the end, every scan meets an error.
+    // If no path leads to the end, every scan has an error.
     let end = compiler.run(start.clone())?.unwrap_or(start);
     let Compiler { network, starts, errors, lines, .. } = compiler;
     let memory = starts.windows(2).map(|range| end.memory[range[0]..range[1]].to_vec()).collect();
@@ -94,26 +97,26 @@ struct Compiler<'p> {
     tolerated: Tolerated,
     limits: Limits,
     network: Network,
-    /// Where the bits of each variable begin.
+    /// Offset of each variable's bits.
     starts: Vec<usize>,
     errors: Vec<(Wire, usize, Hazard)>,
     lines: Vec<(usize, Wire)>,
 }
 
-/// What is known where control is.
+/// Symbolic state at a point of control.
 #[derive(Clone)]
 struct Flow {
-    /// When control comes here.
+    /// Condition under which control reaches this point.
     active: Wire,
     result: Vec<Wire>,
     memory: Vec<Wire>,
 }
 
 impl Compiler<'_> {
-    /// What is known at the end, if control comes there.
+    /// Executes all lines; returns the symbolic state at the end, if it is reachable.
     fn run(&mut self, start: Flow) -> Result<Option<Flow>, NoGates> {
         let end = self.program.end();
-        // What comes to a line by jumps.
+        // Symbolic states that reach a line by jumps.
         let mut arriving: BTreeMap<usize, Flow> = BTreeMap::new();
         let mut flow = Some(start);
         for line in 0..end {
@@ -151,7 +154,7 @@ impl Compiler<'_> {
         Ok(flow)
     }
 
-    /// Notes when control comes to a line.
+    /// Records the condition under which control reaches a line.
     fn note(&mut self, line: usize, flow: Option<&Flow>) {
         let active = flow.map_or(Wire::FALSE, |flow| flow.active);
         if self.lines.last().is_none_or(|(_, before)| *before != active) {
@@ -159,7 +162,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// Two parts of control as one.
+    /// Joins two branches of control.
     fn joined(&mut self, a: Option<Flow>, b: Option<Flow>) -> Option<Flow> {
         let (mut a, b) = match (a, b) {
             (Some(a), Some(b)) => (a, b),
@@ -176,7 +179,7 @@ impl Compiler<'_> {
         yes.iter().zip(no).map(|(&yes, &no)| self.network.choose(condition, yes, no)).collect()
     }
 
-    /// Executes an instruction that is no jump.
+    /// Executes an instruction that is not a jump.
     fn execute(&mut self, line: usize, flow: &mut Flow) -> Result<(), NoGates> {
         match self.program.code[line].instruction {
             Instruction::Load { ty, negated, operand } => {
@@ -279,7 +282,7 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// Control goes on only where there is no error.
+    /// Records an error under a condition; control continues only without the error.
     fn meet(&mut self, flow: &mut Flow, condition: Wire, line: usize, hazard: Hazard) {
         if !self.tolerated.allows(hazard) {
             let met = self.network.and(flow.active, condition);
@@ -302,7 +305,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// All bits of an operand.
+    /// All bits of an operand, of the operand's own width.
     fn place(&mut self, line: usize, flow: &Flow, operand: Operand) -> Result<Vec<Wire>, NoGates> {
         Ok(match operand {
             Operand::Constant(pattern) => constant(pattern, u64::BITS as usize),
@@ -341,7 +344,7 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// The elements of an array, each with when it is meant. An index is always one of the array.
+    /// The elements of an array, each with the condition under which the index selects it. An index is always in range.
     fn hits(&mut self, line: usize, flow: &Flow, element: Element) -> Result<Vec<(VarId, Wire)>, NoGates> {
         let width = self.program.variable(element.first).ty.width as usize;
         if element.length * width > ARRAY_BITS {

@@ -1,18 +1,18 @@
-//! Networks of gates with two inputs, where no function of the same wires is made twice and constants are worked out.
+//! Networks of two-input gates (xor-and graphs), with structural hashing and constant propagation.
 
 use rustc_hash::FxHashMap;
 
-/// What a node gives, or its complement.
+/// Output of a node, or its complement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Wire(u32);
 
 impl Wire {
-    /// The complement of node 0.
+    /// The constant TRUE: the complement of node 0.
     pub const TRUE: Self = Self(1);
-    /// Node 0.
+    /// The constant FALSE: node 0.
     pub const FALSE: Self = Self(0);
 
-    /// An input of a network, from 0.
+    /// The wire of a network's input, numbered from 0.
     pub(super) fn input(number: usize) -> Self {
         Self((number as u32 + 1) << 1)
     }
@@ -21,19 +21,19 @@ impl Wire {
         Self(value.into())
     }
 
-    /// The node it comes from.
+    /// Number of the node.
     #[must_use]
     pub fn node(self) -> usize {
         (self.0 >> 1) as usize
     }
 
-    /// Whether it gives the complement of its node.
+    /// Whether the wire is the complement of its node.
     #[must_use]
     pub fn is_complement(self) -> bool {
         self.0 & 1 == 1
     }
 
-    /// The same way into a network whose nodes have other numbers.
+    /// Returns the wire with another node, for a network with renumbered nodes.
     pub(super) fn at(self, node: usize) -> Self {
         Self((node as u32) << 1 | self.0 & 1)
     }
@@ -47,16 +47,16 @@ impl std::ops::Not for Wire {
     }
 }
 
-/// A gate. The wires of an exclusive or are no complements.
+/// A gate. The wires of an exclusive or are not complemented.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Gate {
-    /// Whether both are TRUE.
+    /// Conjunction.
     And(Wire, Wire),
-    /// Whether one of both is TRUE.
+    /// Exclusive or.
     Xor(Wire, Wire),
 }
 
-/// A network that is being made. Node 0 is FALSE; then come inputs, then gates, each behind what it reads.
+/// A network under construction. Node 0 is FALSE; then come inputs, then gates in topological order.
 pub(super) struct Network {
     inputs: usize,
     gates: Vec<Gate>,
@@ -83,7 +83,7 @@ impl Network {
 
     pub(super) fn and(&mut self, a: Wire, b: Wire) -> Wire {
         let (a, b) = (a.min(b), a.max(b));
-        // The constants are the least wires.
+        // The constants are the smallest wires.
         match a {
             Wire::FALSE => a,
             Wire::TRUE => b,
@@ -107,7 +107,7 @@ impl Network {
         Wire(plain.0 ^ (a.0 ^ b.0) & 1)
     }
 
-    /// `yes` where the condition is TRUE, `no` elsewhere.
+    /// Multiplexer: `yes` if the condition is TRUE, else `no`.
     pub(super) fn choose(&mut self, condition: Wire, yes: Wire, no: Wire) -> Wire {
         match (yes, no) {
             _ if yes == no => yes,
@@ -123,12 +123,12 @@ impl Network {
         }
     }
 
-    /// Whether all wires are TRUE.
+    /// Conjunction of wires.
     pub(super) fn all(&mut self, wires: impl IntoIterator<Item = Wire>) -> Wire {
         wires.into_iter().fold(Wire::TRUE, |all, wire| self.and(all, wire))
     }
 
-    /// Whether some wire is TRUE.
+    /// Disjunction of wires.
     pub(super) fn any(&mut self, wires: impl IntoIterator<Item = Wire>) -> Wire {
         wires.into_iter().fold(Wire::FALSE, |any, wire| self.or(any, wire))
     }

@@ -1,6 +1,6 @@
-//! Where the parts of a state stand in its words.
+//! Layout of the parts of a state in words.
 
-/// Some bits within one word of a state.
+/// Bit field within one word of a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     word: usize,
@@ -9,26 +9,26 @@ pub struct Field {
 }
 
 impl Field {
-    /// The value of the field.
+    /// Value of the field.
     pub fn get(self, state: &[u64]) -> u64 {
         state[self.word] >> self.shift & self.mask
     }
 
-    /// Sets the bits the field has to those of `value`.
+    /// Sets the field to the low bits of `value`.
     pub fn set(self, state: &mut [u64], value: u64) {
         state[self.word] = state[self.word] & !(self.mask << self.shift) | (value & self.mask) << self.shift;
     }
 
-    /// Where its bits are, the least first: the word, and the bit there.
+    /// Word and bit of each bit of the field, the least significant first.
     pub fn positions(self) -> impl Iterator<Item = (usize, u32)> {
         (0..self.mask.count_ones()).map(move |bit| (self.word, self.shift + bit))
     }
 }
 
-/// Fields one after another, none across the end of a word.
+/// Consecutive fields, none across the end of a word.
 #[derive(Debug)]
 pub struct Layout {
-    /// How many bits of each word are taken.
+    /// Number of bits used of each word.
     used: Vec<u32>,
 }
 
@@ -39,12 +39,12 @@ impl Layout {
         Self { used: vec![0] }
     }
 
-    /// How many words there are, at least one.
+    /// Number of words, at least one.
     pub fn words(&self) -> usize {
         self.used.len()
     }
 
-    /// A new field of up to 64 bits, or of none.
+    /// Allocates a field of 0 to 64 bits.
     pub fn field(&mut self, bits: u32) -> Field {
         if self.used.last().is_some_and(|&used| used + bits > 64) {
             self.used.push(0);

@@ -1,7 +1,7 @@
-//! Many scans at once: a scan as a network of gates, each of which computes one bit of many scans.
+//! Bit-parallel simulation: a scan as a network of gates, each of which computes one bit of many scans at once.
 //!
-//! A lane is one scan. What it begins with is a packed state, its inputs set; what it ends with takes its place. A plane holds
-//! one bit of all lanes, so a gate is one instruction of the processor for 64 scans, and the network knows no jumps.
+//! A lane is one scan: a packed state with its inputs set, which is overwritten by the state at the end of the scan. A
+//! plane holds one bit of all lanes, so a gate is one machine instruction for 64 scans, and the network has no jumps.
 
 mod compile;
 mod gates;
@@ -25,27 +25,27 @@ use crate::semantics::VarId;
 use compile::{Limits, compile};
 use transpose::transpose;
 
-/// A scan of packed states.
+/// Network that simulates scans of packed states.
 pub struct Circuit {
-    /// Words of a state.
+    /// Number of words of a state.
     words: usize,
-    /// Where each input is in a state: word and bit. They are nodes from 1.
+    /// Word and bit of each input in a state. Inputs are the nodes from 1.
     inputs: Vec<(usize, u32)>,
     gates: Vec<Gate>,
-    /// What each bit of a state becomes: word, bit, wire. Other bits stay as they are.
+    /// New value of bits of a state: word, bit, wire. Other bits are unchanged.
     outputs: Vec<(usize, u32, Wire)>,
     errors: Vec<(Wire, usize, Hazard)>,
-    /// When control comes to these lines.
+    /// Conditions under which control reaches ranges of lines.
     lines: Vec<(Wire, Range<usize>)>,
 }
 
-/// Scans computed together.
+/// Number of scans computed together.
 pub const LANES: usize = 256;
 
-/// The planes of one node.
+/// Planes of one node: its value in all lanes.
 type Planes = [u64; LANES / 64];
 
-/// Memory used again and again.
+/// Reusable memory.
 #[derive(Default)]
 pub struct Scratch {
     nodes: Vec<Planes>,
@@ -67,7 +67,7 @@ impl Circuit {
         Some(Self { words, inputs, gates, outputs, errors, lines: Vec::new() }.pruned())
     }
 
-    /// What [`Circuit::of`] gives, but it only tells which lines are executed.
+    /// Compiles the scan as [`Circuit::of`] does, but only to find the lines that are executed.
     pub fn of_lines(
         program: &FlatProgram,
         tolerated: Tolerated,
@@ -82,7 +82,7 @@ impl Circuit {
         Some(Self { words, inputs, gates, outputs, errors, lines }.pruned())
     }
 
-    /// Without the gates and inputs that nothing depends on.
+    /// Removes unused gates and inputs.
     fn pruned(mut self) -> Self {
         let first = 1 + self.inputs.len();
         let mut used = vec![false; first + self.gates.len()];
@@ -135,7 +135,7 @@ impl Circuit {
         }
     }
 
-    /// Adds the lines that are executed in a scan from one of these states, up to [`LANES`] of them.
+    /// Adds the lines that are executed in a scan from one of up to [`LANES`] states.
     pub fn reach(&self, lanes: &[u64], scratch: &mut Scratch, executed: &mut FixedBitSet) {
         let count = lanes.len() / self.words;
         let nodes = self.evaluate(lanes, scratch);
@@ -190,7 +190,7 @@ impl Circuit {
         }
     }
 
-    /// Gives a group of lanes what their planes say.
+    /// Writes the planes of the outputs to a group of lanes.
     fn write(&self, lanes: &mut [u64], group: usize, nodes: &[Planes]) {
         let lanes = &mut lanes[group * 64 * self.words..];
         let mut outputs = self.outputs.iter().peekable();
@@ -211,7 +211,7 @@ impl Circuit {
     }
 }
 
-/// Where the bits of all fields are, and for each variable the wires of its own.
+/// Positions of the bits of all fields, and for each variable the wires of its bits.
 fn inputs(program: &FlatProgram, fields: &[(VarId, Field)]) -> (Vec<(usize, u32)>, Vec<Vec<Wire>>) {
     let mut inputs = Vec::new();
     let mut own = vec![Vec::new(); program.variables.len()];
@@ -224,7 +224,7 @@ fn inputs(program: &FlatProgram, fields: &[(VarId, Field)]) -> (Vec<(usize, u32)
     (inputs, own)
 }
 
-/// What a wire gives.
+/// Values of a wire.
 #[inline(always)]
 fn plane(nodes: &[Planes], wire: Wire) -> Planes {
     let complement = if wire.is_complement() { u64::MAX } else { 0 };

@@ -1,25 +1,25 @@
-//! Gates for numbers: rows of wires, the least bit first.
+//! Arithmetic gates: numbers are rows of wires, the least significant bit first.
 
 use super::gates::{Network, Wire};
 use crate::flat::Function;
 use crate::semantics::{Kind, Type};
 
-/// The bits of a pattern.
+/// Wires of a constant bit pattern.
 pub(super) fn constant(pattern: u64, width: usize) -> Vec<Wire> {
     (0..width).map(|bit| Wire::constant(pattern.checked_shr(bit as u32).is_some_and(|rest| rest & 1 == 1))).collect()
 }
 
-/// The low bits, with 0 above them.
+/// Bits truncated to a width, or extended by 0.
 pub(super) fn resized(bits: &[Wire], width: usize) -> Vec<Wire> {
     (0..width).map(|bit| bits.get(bit).copied().unwrap_or(Wire::FALSE)).collect()
 }
 
-/// The complement of every bit, if asked for.
+/// Complement of every bit, if `negated`.
 pub(super) fn complement(bits: &[Wire], negated: bool) -> Vec<Wire> {
     bits.iter().map(|&bit| if negated { !bit } else { bit }).collect()
 }
 
-/// A sum and a carry: the sum, what is carried into its last bit, and what out of it.
+/// Ripple-carry adder: returns the sum, the carry into its last bit, and the carry out.
 pub(super) fn add(network: &mut Network, a: &[Wire], b: &[Wire], mut carry: Wire) -> (Vec<Wire>, Wire, Wire) {
     let mut into = carry;
     let mut sum = Vec::with_capacity(a.len());
@@ -32,7 +32,7 @@ pub(super) fn add(network: &mut Network, a: &[Wire], b: &[Wire], mut carry: Wire
     (sum, into, carry)
 }
 
-/// The sum or difference of two numbers modulo 2^width, and whether it is none of the type.
+/// Sum or difference of two numbers modulo 2^width, and whether it overflows the type.
 pub(super) fn sum(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire], minus: bool) -> (Vec<Wire>, Wire) {
     let b = complement(b, minus);
     let (sum, into, out) = add(network, a, &b, Wire::constant(minus));
@@ -44,7 +44,7 @@ pub(super) fn sum(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire], minus
     (sum, overflow)
 }
 
-/// Whether a number is at least another.
+/// Comparison a ≥ b.
 fn at_least(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire]) -> Wire {
     let (mut a, mut b) = (a.to_vec(), complement(b, true));
     if let (true, Some(a), Some(b)) = (ty.is_signed(), a.last_mut(), b.last_mut()) {
@@ -53,13 +53,13 @@ fn at_least(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire]) -> Wire {
     add(network, &a, &b, Wire::TRUE).2
 }
 
-/// Whether two patterns are the same.
+/// Equality of two bit patterns.
 pub(super) fn equal(network: &mut Network, a: &[Wire], b: &[Wire]) -> Wire {
     let same: Vec<Wire> = a.iter().zip(b).map(|(&a, &b)| !network.xor(a, b)).collect();
     network.all(same)
 }
 
-/// A comparison; nothing if the function is none.
+/// Comparison by a function; `None` if the function is not a comparison.
 pub(super) fn compare(network: &mut Network, function: Function, ty: Type, a: &[Wire], b: &[Wire]) -> Option<Wire> {
     Some(match function {
         Function::Eq => equal(network, a, b),
@@ -72,7 +72,7 @@ pub(super) fn compare(network: &mut Network, function: Function, ty: Type, a: &[
     })
 }
 
-/// Whether a number lies between two others.
+/// Range check lower ≤ a ≤ upper.
 pub(super) fn is_between(network: &mut Network, ty: Type, a: &[Wire], lower: i128, upper: i128) -> Wire {
     if lower > ty.greatest() || upper < ty.least() {
         return Wire::FALSE;
@@ -83,7 +83,7 @@ pub(super) fn is_between(network: &mut Network, ty: Type, a: &[Wire], lower: i12
     network.and(from, to)
 }
 
-/// A pattern shifted or rotated by a known distance; nothing if the function is none of these.
+/// Bit pattern shifted or rotated by a constant distance; `None` for other functions.
 pub(super) fn shift(function: Function, bits: &[Wire], distance: u64) -> Option<Vec<Wire>> {
     let width = bits.len() as u64;
     let from = |source: &dyn Fn(u64) -> Option<u64>| -> Vec<Wire> {
@@ -98,7 +98,7 @@ pub(super) fn shift(function: Function, bits: &[Wire], distance: u64) -> Option<
     })
 }
 
-/// A number in another type, and whether it is none of that type.
+/// Conversion of a number to another type, and whether it overflows that type.
 pub(super) fn convert(network: &mut Network, from: Type, to: Type, bits: &[Wire]) -> (Vec<Wire>, Wire) {
     if to.is_bool() {
         return (vec![network.any(bits.iter().copied())], Wire::FALSE);
@@ -109,7 +109,7 @@ pub(super) fn convert(network: &mut Network, from: Type, to: Type, bits: &[Wire]
     if !to.overflows_from(from) {
         return (pattern, Wire::FALSE);
     }
-    // All bits from the other type's sign on are the number's sign; a number without sign must have none.
+    // All bits from the target type's sign on must equal the number's sign; for an unsigned type they must be 0.
     let first = if to.is_signed() { to.width as usize - 1 } else { to.width as usize };
     let expected = if to.is_signed() { sign } else { Wire::FALSE };
     let above: Vec<Wire> =

@@ -1,14 +1,14 @@
-//! Gates for what takes many of them: products, quotients, and shifts by a distance that is computed.
+//! Gates for products, quotients, and shifts by a computed distance, which take many.
 
 use super::gates::{Network, Wire};
 use super::numbers::{add, complement, constant, resized};
 use crate::flat::Function;
 use crate::semantics::{Kind, Type};
 
-/// The product of two numbers modulo 2^width, and whether it is none of the type.
+/// Product of two numbers modulo 2^width, and whether it overflows the type.
 pub(super) fn product(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire]) -> (Vec<Wire>, Wire) {
     let width = a.len();
-    // Modulo 2^(2 width), numbers are multiplied like patterns, whatever their signs.
+    // Modulo 2^(2 width), sign-extended numbers are multiplied like unsigned ones.
     let wide = if ty.kind == Kind::Bits { width } else { 2 * width };
     let (a, b) = (extended(ty, a, wide), extended(ty, b, wide));
     let mut product = vec![Wire::FALSE; wide];
@@ -29,15 +29,15 @@ fn extended(ty: Type, bits: &[Wire], width: usize) -> Vec<Wire> {
     (0..width).map(|bit| bits.get(bit).copied().unwrap_or(sign)).collect()
 }
 
-/// What a division gives; both numbers are 0 where the divisor is.
+/// Result of a division; both numbers are 0 if the divisor is.
 pub(super) struct Divided {
     pub(super) quotient: Vec<Wire>,
     pub(super) remainder: Vec<Wire>,
-    /// Whether the quotient is none of the type.
+    /// Whether the quotient overflows the type.
     pub(super) overflow: Wire,
 }
 
-/// The quotient of two numbers, truncated toward zero, and the remainder with the sign of the dividend.
+/// Quotient of two numbers, truncated toward zero, and remainder with the sign of the dividend.
 pub(super) fn quotient(network: &mut Network, ty: Type, a: &[Wire], b: &[Wire]) -> Divided {
     let width = a.len();
     let sign = |bits: &[Wire]| bits.last().copied().filter(|_| ty.is_signed()).unwrap_or(Wire::FALSE);
@@ -73,9 +73,9 @@ fn negated_if(network: &mut Network, condition: Wire, bits: &[Wire]) -> Vec<Wire
     add(network, &turned, &constant(0, bits.len()), condition).0
 }
 
-/// A pattern shifted or rotated by any distance.
+/// Barrel shifter: bit pattern shifted or rotated by a computed distance.
 pub(super) fn shift(network: &mut Network, function: Function, bits: &[Wire], distance: &[Wire]) -> Vec<Wire> {
-    // Widths are powers of 2, so what rotates all the way round is told by the low bits of the distance.
+    // Widths are powers of 2, so a rotation depends only on the low bits of the distance.
     let width = bits.len();
     let stages = width.trailing_zeros() as usize;
     let mut bits = bits.to_vec();

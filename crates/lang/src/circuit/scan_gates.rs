@@ -1,33 +1,33 @@
-//! One scan as gates, for those who reason about all scans at once.
+//! A scan as gates, for proofs about all scans at once.
 
 use super::compile::{Limits, NoGates, compile};
 use super::gates::{Gate, Wire};
 use crate::flat::{FlatProgram, Hazard, Target, Tolerated};
 use crate::semantics::{Role, VarId};
 
-/// What a scan makes of the bits it begins with.
+/// Transition function of a scan: the bits at its end as gates over those at its beginning.
 ///
-/// Node 0 of the network is FALSE; then come the inputs, then the gates, each behind what it reads.
+/// Node 0 of the network is FALSE; then come the inputs, then the gates in topological order.
 #[derive(Clone, Debug)]
 pub struct ScanGates {
-    /// Which bit of which variable each input is, at the beginning of the scan, when the inputs have been copied.
+    /// Variable and bit of each input, at the beginning of the scan after the inputs have been copied.
     pub inputs: Vec<(VarId, u32)>,
-    /// The gates.
+    /// Gates in topological order.
     pub gates: Vec<Gate>,
-    /// The bits of each variable at the beginning, the least first. Variables that nothing ever writes have their initial
-    /// values; buffers, which no scan reads before it writes them, are FALSE.
+    /// Bits of each variable at the beginning, the least significant first. Variables that are never written have their
+    /// initial values; buffers, which no scan reads before it writes them, are FALSE.
     pub beginning: Vec<Vec<Wire>>,
-    /// The bits of each variable at the end of a scan that meets no error. They mean nothing in other scans.
+    /// Bits of each variable at the end of a scan without errors. Meaningless in other scans.
     pub end: Vec<Vec<Wire>>,
-    /// When the scan meets an error first in this line (from 0).
+    /// Conditions under which the first error of the scan is in this line (from 0).
     pub errors: Vec<(Wire, usize, Hazard)>,
 }
 
 impl ScanGates {
-    /// The scan of a program. It always ends, since control never goes back in what has gates.
+    /// Compiles the scan of a program. The scan always ends, since programs with backward jumps have no gates.
     ///
     /// # Errors
-    /// Gates do not serve.
+    /// The scan has no gates.
     pub fn of(program: &FlatProgram, tolerated: Tolerated) -> Result<Self, NoGates> {
         let mut varies: Vec<bool> = program.variables.iter().map(|variable| variable.role == Role::Input).collect();
         for target in program.code.iter().filter_map(|line| line.instruction.writes()) {
@@ -61,13 +61,13 @@ impl ScanGates {
         })
     }
 
-    /// The node of the first gate.
+    /// Number of the first gate's node.
     #[must_use]
     pub fn first_gate(&self) -> usize {
         1 + self.inputs.len()
     }
 
-    /// What every node gives in 64 scans at once: `inputs` has a word for each input, in which every scan has a bit.
+    /// Evaluates every node in 64 scans at once: `inputs` has a word for each input, with a bit for every scan.
     #[must_use]
     pub fn evaluate(&self, inputs: &[u64]) -> Lanes {
         let mut nodes = Vec::with_capacity(self.first_gate() + self.gates.len());
@@ -85,21 +85,21 @@ impl ScanGates {
     }
 }
 
-/// What the nodes of a network give in 64 scans.
+/// Values of all nodes of a network in 64 scans.
 #[derive(Clone, Debug)]
 pub struct Lanes {
     nodes: Vec<u64>,
 }
 
 impl Lanes {
-    /// What a wire gives, one bit for each scan.
+    /// Values of a wire, one bit for each scan.
     #[must_use]
     pub fn word(&self, wire: Wire) -> u64 {
         let complement = if wire.is_complement() { u64::MAX } else { 0 };
         self.nodes[wire.node()] ^ complement
     }
 
-    /// The number that some wires give in one of the scans, the least bit first.
+    /// Bit pattern of wires in one of the scans, the least significant bit first.
     #[must_use]
     pub fn pattern(&self, wires: &[Wire], scan: usize) -> u64 {
         wires.iter().enumerate().fold(0, |pattern, (bit, &wire)| pattern | (self.word(wire) >> scan & 1) << bit)

@@ -1,6 +1,6 @@
-//! Between lanes, which are words of bits, and planes, which hold one bit of 64 lanes.
+//! Transposition of 64 × 64 bits, between lanes (words of bits) and planes (one bit of 64 lanes).
 
-/// Makes bit i of word j bit j of word i (Warren, Hacker's Delight, section 7-3).
+/// Transposes a 64 × 64 bit matrix (Warren, Hacker's Delight, section 7-3).
 pub(super) fn transpose(words: &mut [u64; 64]) {
     let mut distance = 32;
     let mut mask = 0xFFFF_FFFF_u64;

@@ -1,4 +1,4 @@
-//! What names mean in a formula about a net alone: places and transitions.
+//! Names in a formula about a net alone: places and transitions.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub fn bind_in_net(formula: &Formula, nodes: &Nodes<'_>) -> Result<Bound, Vec<Di
     bind_names(formula, nodes)
 }
 
-/// What the nodes of a net are called in formulas: by their names, or by ids that the file of the net gives them.
+/// Names of a net's nodes in formulas: their own names, or their ids in the net's file.
 #[derive(Clone, Debug)]
 pub struct Nodes<'n> {
     places: BTreeMap<&'n str, PlaceId>,
@@ -39,7 +39,7 @@ impl<'n> Nodes<'n> {
         Self { by_id: false, ..Self::by_id(places, transitions) }
     }
 
-    /// Nodes called by the ids given here. Two ids may mean the same node.
+    /// Names nodes by the given ids. Two ids may denote the same node.
     pub fn by_id(
         places: impl IntoIterator<Item = (&'n str, PlaceId)>,
         transitions: impl IntoIterator<Item = (&'n str, TransitionId)>,
@@ -47,10 +47,10 @@ impl<'n> Nodes<'n> {
         Self { places: places.into_iter().collect(), transitions: transitions.into_iter().collect(), by_id: true }
     }
 
-    /// The places of these names, each with where it stands.
+    /// Finds places by names, given with their spans.
     ///
     /// # Errors
-    /// Every place that the net does not have.
+    /// Every unknown place.
     pub fn places<'f>(
         &self,
         names: impl IntoIterator<Item = (&'f str, Span)>,
@@ -65,7 +65,7 @@ impl<'n> Nodes<'n> {
         if errors.is_empty() { Ok(places) } else { Err(errors) }
     }
 
-    /// The node of a name, or that there is none of its kind.
+    /// Finds a node by name, or returns the error that there is none of its kind.
     fn find<T: Copy>(&self, kind: &str, of: &BTreeMap<&str, T>, name: &Name<'_>) -> Result<T, Diagnostic> {
         of.get(name.text).copied().ok_or_else(|| {
             let with = if self.by_id { " with the id" } else { "" };
@@ -73,7 +73,7 @@ impl<'n> Nodes<'n> {
         })
     }
 
-    /// The error that a net alone has no variables.
+    /// Makes the error that a net alone has no variables.
     fn no_variable(&self, name: &Name<'_>) -> Diagnostic {
         let text = name.text;
         let help = if self.places.contains_key(text) {

@@ -1,18 +1,19 @@
-//! What formulas say of scans before and after.
+//! Binding of formulas about other scans, earlier or later.
 
 use super::*;
 
-/// A formula `f within n scans` becomes so many formulas inside each other, at most.
+/// Maximum nesting of the formula for `f within n scans`.
 const MOST_WITHIN: u64 = 200;
 
-/// A response within so few scans is told by these formulas, else by counting the scans without it.
+/// Maximum number of scans of a response that is expressed by nested formulas; above it, the scans without response are
+/// counted.
 const FEW: u64 = 20;
 
-/// A number of scans is at most this.
+/// Maximum number of scans in a formula.
 const MOST_SCANS: u64 = 1 << 30;
 
 impl Binder<'_> {
-    /// A formula that has a meaning only where states are ends of scans.
+    /// Binds a formula that is meaningful only if states are ends of scans.
     pub(super) fn about_scans(&mut self, formula: &Formula) -> Bound {
         let span = formula.span;
         let time = match self.vocabulary.scans(span) {
@@ -43,7 +44,7 @@ impl Binder<'_> {
                 let (a, b) = (self.state_formula(a), self.state_formula(b));
                 let not_b = Bound::Not(Box::new(b));
                 let begins = Bound::And(Box::new(a), Box::new(not_b.clone()));
-                // Once a came without b, and since then b did not come.
+                // a has been true without b, and b has not been true since.
                 globally(Bound::Not(Box::new(held(is_true(Past::Since(not_b, begins)), n))))
             }
             _ => Bound::Truth(false),
@@ -72,7 +73,7 @@ impl Binder<'_> {
         }
     }
 
-    /// What a number was at the end of the scan before.
+    /// Binds the value of a number at the end of the previous scan.
     pub(super) fn before(&mut self, of: &Formula, span: Span) -> Term {
         if let Err(diagnostic) = self.vocabulary.scans(span) {
             return Term::Truth(Box::new(self.error(diagnostic)));
@@ -86,7 +87,7 @@ impl Binder<'_> {
         Term::Past(Arc::new(Past::Before(term)))
     }
 
-    /// A formula about this scan and those before it.
+    /// Binds a formula that must not look ahead.
     fn state_formula(&mut self, formula: &Formula) -> Bound {
         let bound = self.truth(formula);
         if bound.is_state_formula() {
@@ -97,7 +98,7 @@ impl Binder<'_> {
         self.error(Diagnostic::new(Code::RequirementTypes, formula.span, message).help(help))
     }
 
-    /// How many scans a duration has: as many as begin in it, or as many as it takes to fill it.
+    /// Number of scans in a duration: rounded up if `filled`, otherwise down.
     fn scans(&mut self, duration: &Duration, ScanTime(time): ScanTime, most: u64, filled: bool) -> u64 {
         let scans = match duration.amount {
             Amount::Scans(scans) => u64::from(scans),
@@ -128,19 +129,20 @@ fn globally(f: Bound) -> Bound {
     Bound::Until { quantifier: Quantifier::All, weak: true, hold, release }
 }
 
-/// A term about the past as a truth value.
+/// Atom that a term about the past is true.
 fn is_true(past: Past) -> Bound {
     Bound::Compare(Comparison::Unequal, Term::Past(Arc::new(past)), Term::Number(0))
 }
 
-/// The formula has been true at the ends of this scan and of `n` before it. Power-on is the end of no scan, also for `n` = 0.
+/// Atom that a formula is true at the end of this scan and of the `n` scans before it. Power-on is not the end of a
+/// scan, so the atom is false there even for `n` = 0.
 fn held(f: Bound, n: u64) -> Bound {
     let most = u32::try_from(n + 1).unwrap_or(u32::MAX);
     let run = Term::Past(Arc::new(Past::Run { of: f, most }));
     Bound::Compare(Comparison::AtLeast, run, Term::Number(most.into()))
 }
 
-/// `f | AX (f | AX …)`
+/// Formula `f | AX (f | AX …)`: f is true now or within `n` scans.
 fn within(f: &Bound, n: u64) -> Bound {
     (0..n).fold(f.clone(), |later, _| {
         Bound::Or(Box::new(f.clone()), Box::new(Bound::Next(Quantifier::All, Box::new(later))))

@@ -1,72 +1,72 @@
-//! What is assumed of runs: as it is written, and bound.
+//! Fairness assumptions, as written and bound.
 
 use crate::bound::Bound;
 use crate::formula::Formula;
 use petril_base::source::Span;
 
-/// A line about which runs count, before its names mean anything.
+/// A fairness assumption as written, not yet bound.
 #[derive(Clone, Debug)]
 pub struct FairnessText {
-    /// Its name, if it has one.
+    /// Name, if there is one.
     pub name: Option<String>,
-    /// What it says in the words of its author.
+    /// Description by the author.
     pub sentence: Option<String>,
-    /// What it says.
+    /// Content of the assumption.
     pub recurrence: Recurrence,
-    /// What it says as it was written, on one line.
+    /// Content as written, on one line.
     pub text: String,
-    /// Where that stands.
+    /// Span of the content.
     pub span: Span,
 }
 
-/// What comes again and again.
+/// Recurrence: what is to be true infinitely often.
 #[derive(Clone, Debug)]
 pub enum Recurrence {
-    /// `again and again p`
+    /// Weak fairness: `again and again p`.
     Weak(Formula),
-    /// `if again and again p then again and again q`
+    /// Strong fairness: `if again and again p then again and again q`.
     Strong {
-        /// p
+        /// Premise p.
         premise: Formula,
-        /// q
+        /// Goal q.
         goal: Formula,
     },
-    /// `released(a, b)`: each of these inputs is FALSE again and again; `pressed(a, b)`: TRUE.
+    /// `released(a, b)`: each of these inputs is FALSE infinitely often; `pressed(a, b)`: TRUE.
     Inputs {
-        /// What they are.
+        /// Value that the inputs have infinitely often.
         value: bool,
-        /// The inputs, with where they stand.
+        /// Names of the inputs, with their spans.
         names: Vec<(String, Span)>,
     },
-    /// `plant`: each transition of the plant is unable to fire again and again.
+    /// `plant`: each transition of the plant is disabled infinitely often.
     Plant,
 }
 
-/// A line about which runs count, bound: the runs that meet all of its constraints, and those that end.
+/// A bound fairness assumption: fair are the runs that satisfy all of its constraints, and those that end.
 #[derive(Clone, Debug)]
 pub struct FairnessAssumption {
-    /// What it says in words, with its name and those of its author.
+    /// Text for reports, with the name and the author's description.
     pub words: String,
-    /// The constraints.
+    /// Constraints on runs.
     pub constraints: Vec<Constraint>,
-    /// Whether it speaks of times, so that what it means depends on how long a scan takes.
+    /// Whether the assumption contains times, so that its meaning depends on the scan time.
     pub speaks_of_time: bool,
 }
 
 impl FairnessAssumption {
-    /// The formulas it speaks of, each about one state.
+    /// State formulas of the constraints.
     pub fn formulas(&self) -> impl Iterator<Item = &Bound> {
         self.constraints.iter().flat_map(|constraint| constraint.premise.iter().chain([&constraint.goal]))
     }
 }
 
-/// Something comes again and again, perhaps only if something else does. Both are formulas about one state.
+/// A fairness constraint: the goal is true infinitely often, if the premise is. Both are state formulas.
 #[derive(Clone, Debug)]
 pub struct Constraint {
-    /// If this comes again and again, or in any case,
+    /// Premise of a strong constraint; `None` for a weak one.
     pub premise: Option<Bound>,
-    /// so does this.
+    /// Goal.
     pub goal: Bound,
-    /// The same in words.
+    /// Text for reports.
     pub words: String,
 }

@@ -1,23 +1,23 @@
-//! A formula about one path as an automaton that follows it: a tableau after Couvreur (1999), whose modes are the ways in which a
-//! list of formulas can be true in one state and go on.
+//! Automaton of an LTL formula: a generalised Büchi automaton by the tableau of Couvreur (1999). Its states, called
+//! modes, are the ways in which a set of formulas can be true in one state and continue.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::formula::Path;
 use crate::bound::Bound;
 
-/// A formula in negation normal form, as a position among all of them.
+/// Position of a formula in negation normal form.
 type Id = usize;
 
-/// What such a formula says.
+/// A formula in negation normal form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
     Truth(bool),
-    /// The atom is true, or false.
+    /// An atom or its negation.
     Literal(usize, bool),
     And(Id, Id),
     Or(Id, Id),
-    /// Strong: there must be a next state.
+    /// Next; `strong` if there must be a next state.
     Next {
         strong: bool,
         f: Id,
@@ -26,38 +26,38 @@ enum Part {
     WeakUntil(Id, Id),
 }
 
-/// A way in which what is wanted of a path is true in a state and goes on.
+/// Mode: a state of the automaton.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Mode {
-    /// The atoms that must be true or false in the state.
+    /// Atoms that must be true or false in the state.
     pub literals: BTreeMap<usize, bool>,
-    /// What is wanted from the next state on, as a position in [`Automaton::ways`].
+    /// Obligations from the next state on, as a position in [`Automaton::ways`].
     pub next: u32,
     /// Whether the path may end in the state.
     pub may_end: bool,
-    /// The untils put off to a later state.
+    /// Untils postponed to a later state.
     pub put_off: BTreeSet<usize>,
 }
 
-/// What follows a path as long as the formula can still be true of it. The path satisfies the formula if it ends in a mode that
-/// may end, or has no end and puts no until off for ever.
+/// Generalised Büchi automaton that also accepts finite paths. A path satisfies the formula if it ends in a mode that
+/// may end, or is infinite and postpones no until for ever.
 #[derive(Debug)]
 pub struct Automaton {
-    /// The atoms, each once.
+    /// Distinct atoms.
     pub atoms: Vec<Bound>,
-    /// The modes, each once.
+    /// Distinct modes.
     pub modes: Vec<Mode>,
-    /// For each thing that can be wanted of the rest of a path, the modes in which it can be true. The whole formula comes first.
+    /// Modes that satisfy each set of obligations. The whole formula comes first.
     pub ways: Vec<Vec<u32>>,
-    /// The untils.
+    /// Untils, each an acceptance condition.
     pub untils: BTreeSet<usize>,
 }
 
-/// More modes than this are too many. Formulas people write have tens.
+/// Maximum number of modes. Formulas written by hand have tens.
 const MAX_MODES: usize = 20_000;
 
 impl Automaton {
-    /// The automaton of a formula, or of its negation; nothing if it would be too large.
+    /// Builds the automaton of a formula, or of its negation; `None` if it would be too large.
     pub fn of(formula: &Path<Bound>, negated: bool) -> Option<Self> {
         let mut parts = Parts::default();
         let root = parts.add(formula, negated);
@@ -92,19 +92,19 @@ impl Automaton {
     }
 }
 
-/// A mode before its rest has a number.
+/// A mode under construction, with its obligations as formulas.
 #[derive(Clone, Debug)]
 struct Way {
     literals: BTreeMap<usize, bool>,
     next: BTreeSet<Id>,
     may_end: bool,
     put_off: BTreeSet<Id>,
-    /// What has been seen to.
+    /// Formulas that have been expanded.
     done: BTreeSet<Id>,
 }
 
 impl Way {
-    /// Whether whatever goes this way could as well have gone the other one.
+    /// Whether every path accepted by this way is accepted by the other one.
     fn asks_no_less_than(&self, other: &Self) -> bool {
         let literals = other.literals.iter().all(|(atom, value)| self.literals.get(atom) == Some(value));
         let rest = other.next.is_subset(&self.next) && other.put_off.is_subset(&self.put_off);
@@ -116,7 +116,7 @@ impl Way {
 struct Parts {
     parts: Vec<Part>,
     known: BTreeMap<Part, Id>,
-    /// The formulas that were added, by their addresses, which do not change meanwhile.
+    /// Formulas that were added, by address, which does not change meanwhile.
     added: BTreeMap<(*const Path<Bound>, bool), Id>,
     atoms: Vec<Bound>,
 }
@@ -131,7 +131,7 @@ impl Parts {
         id
     }
 
-    /// ¬(f U g) is ¬g W (¬f ∧ ¬g), and ¬(f W g) is ¬g U (¬f ∧ ¬g).
+    /// Adds an until or its negation: ¬(f U g) = ¬g W (¬f ∧ ¬g), and ¬(f W g) = ¬g U (¬f ∧ ¬g).
     fn until(&mut self, weak: bool, negated: bool, f: Id, g: Id) -> Id {
         let (f, g) = if negated { (g, self.put(Part::And(f, g))) } else { (f, g) };
         self.put(if weak == negated { Part::Until(f, g) } else { Part::WeakUntil(f, g) })
@@ -199,8 +199,8 @@ impl Parts {
         }
     }
 
-    /// The ways in which all of these can be true in a state and go on, without those that ask for more than another one. Nothing
-    /// if there are too many.
+    /// Ways in which a set of formulas can be true in a state and continue, without those subsumed by another one.
+    /// `None` if there are too many.
     fn ways(&self, wanted: &BTreeSet<Id>) -> Option<Vec<Way>> {
         let none = BTreeSet::new();
         let start =

@@ -1,9 +1,9 @@
-//! Formulas about one path.
+//! LTL formulas: formulas about one path.
 
-/// A formula about one path. Its atoms are formulas about one state, as they are written or bound.
+/// An LTL formula. Its atoms are state formulas, as written or bound.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Path<A> {
-    /// A formula about the first state.
+    /// State formula about the first state.
     State(A),
     /// Negation.
     Not(Box<Self>),
@@ -15,22 +15,22 @@ pub enum Path<A> {
     Implies(Box<Self>, Box<Self>),
     /// Equivalence.
     Iff(Box<Self>, Box<Self>),
-    /// X f: in the next state, if there is one.
+    /// X f: true in the next state, if there is one (weak next).
     Next(Box<Self>),
-    /// F f: now or later.
+    /// F f: true now or later.
     Finally(Box<Self>),
-    /// G f: from now on.
+    /// G f: true from now on.
     Globally(Box<Self>),
-    /// f U g: g comes, and f holds until then.
+    /// f U g: g becomes true, and f is true until then.
     Until(Box<Self>, Box<Self>),
-    /// f W g: the same, or f holds for ever.
+    /// f W g: weak until: f U g, or f is true for ever.
     WeakUntil(Box<Self>, Box<Self>),
-    /// f R g: g holds until f and g hold together, or for ever.
+    /// f R g: release: g is true until f and g are true together, or for ever.
     Release(Box<Self>, Box<Self>),
 }
 
 impl<A> Path<A> {
-    /// The same formula about other atoms.
+    /// Returns the formula with mapped atoms.
     pub fn map<B>(&self, atom: &mut impl FnMut(&A) -> B) -> Path<B> {
         let mut of = |f: &Self| Box::new(f.map(atom));
         match self {
@@ -49,7 +49,7 @@ impl<A> Path<A> {
         }
     }
 
-    /// Its atoms, as often as they stand in it.
+    /// Atoms of the formula, once for each occurrence.
     pub fn atoms(&self) -> Vec<&A> {
         match self {
             Self::State(f) => vec![f],
@@ -64,7 +64,8 @@ impl<A> Path<A> {
         }
     }
 
-    /// The premise of an implication that its truth rests on, if `never` says that it holds in no state.
+    /// Finds a premise of an implication that makes the formula vacuously true: one for which `never` says that it
+    /// holds in no state.
     pub fn vacuous_premise<'f>(&'f self, never: &mut dyn FnMut(&A) -> bool) -> Option<&'f A> {
         match self {
             Self::Implies(premise, conclusion) => match &**premise {

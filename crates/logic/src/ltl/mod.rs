@@ -1,10 +1,11 @@
-//! Linear time: formulas about one path, required of all paths (LTL).
+//! Linear temporal logic (LTL): formulas about one path, required of all paths.
 //!
 //! ```text
 //! ¬f ──automaton──▶ modes that follow a path ──product──▶ a graph with a path exactly for each path with ¬f ──search──▶ a lasso
 //! ```
 //!
-//! On a path that ends, X f is true in its last state, as AX f is, and the other operators speak of the states there are.
+//! On a finite path, X f is true in its last state, as AX f is, and the other operators range over the states there
+//! are.
 
 mod automaton;
 mod formula;

@@ -1,4 +1,4 @@
-//! A path on which a formula is false, or that there is none.
+//! Search for a counterexample to an LTL formula: a path on which it is false.
 
 use fixedbitset::FixedBitSet;
 
@@ -9,34 +9,34 @@ use crate::fairness::Constraints;
 use crate::lasso::round;
 use petril_search::{Budget, Follower, Graph, Pairs, Stop, followed};
 
-/// What a search for a path on which a formula is false came to.
+/// Result of a search for a counterexample.
 #[derive(Debug)]
 pub enum Search {
-    /// There is one, made of known steps.
+    /// A counterexample made of known steps.
     Found(Counterexample),
-    /// There is none, whatever the missing steps are, as far as paths from known initial states go.
+    /// No path from a known initial state is a counterexample, whatever the missing steps are.
     None,
-    /// There may be one behind a state whose steps are not all known.
+    /// There may be a counterexample through a state whose steps are not all known.
     Open,
-    /// Only so much of the paths can be gone through.
+    /// The search was stopped by a limit.
     Stopped(Stop),
-    /// The formula is too large.
+    /// The automaton of the formula is too large.
     TooLarge,
 }
 
-/// A path without end, or one that ends where no step is left: a shortest way to where it goes round, or ends.
+/// A counterexample: a lasso, or a path that ends in a state without steps, with a shortest stem.
 #[derive(Debug)]
 pub struct Counterexample {
-    /// The states of the path.
+    /// States of the path.
     pub states: Vec<u32>,
-    /// For a lasso, the position to which the last state steps back.
+    /// Position to which the last state steps back, for a lasso.
     pub loop_start: Option<usize>,
-    /// What atoms must be on the path: for each of its positions, which atom is true or false there.
+    /// Values of atoms along the path: position, atom, and value.
     pub atoms: Vec<(usize, Bound, bool)>,
 }
 
-/// Looks for a path from an initial state that meets all constraints, if it has no end, and on which a formula is false.
-/// `states_where` gives the states in which an atom holds.
+/// Searches for a path from an initial state on which a formula is false and which, if infinite, satisfies all fairness
+/// constraints. `states_where` gives the states in which an atom holds.
 pub fn search(
     graph: &Graph,
     formula: &Path<Bound>,
@@ -52,7 +52,7 @@ pub fn search(
         Ok(product) => product,
         Err(stop) => return Search::Stopped(stop),
     };
-    // Where paths can go round for ever, or end: only modes that may end come to where they do.
+    // States on fair cycles, or in which paths end: these are entered only in modes that may end.
     let constraints = following.lifted(&product, constraints);
     let mut all = FixedBitSet::with_capacity(product.graph.len());
     all.insert_range(..);
@@ -69,12 +69,12 @@ pub fn search(
     }
 }
 
-/// A graph and the automaton that follows its paths.
+/// The automaton on the paths of a graph.
 struct Followed<'a> {
     graph: &'a Graph,
     open: &'a FixedBitSet,
     automaton: &'a Automaton,
-    /// The states in which each atom holds.
+    /// States in which each atom holds.
     atoms: Vec<FixedBitSet>,
 }
 
@@ -102,7 +102,7 @@ impl Followed<'_> {
         self.graph.successors(state).is_empty() && !self.open.contains(state as usize)
     }
 
-    /// Constraints on the paths of the product: those on the graph's paths, and that no until is put off for ever.
+    /// Constraints on the paths of the product: those on the graph's paths, and that no until is postponed for ever.
     fn lifted(&self, product: &Pairs, constraints: &Constraints) -> Constraints {
         let pairs_where = |test: &dyn Fn(u32, &Mode) -> bool| {
             let mut set = FixedBitSet::with_capacity(product.pairs.len());

@@ -1,10 +1,10 @@
-//! Whether a formula holds on a given path, by the definition: what a counterexample is held to.
+//! Evaluation of LTL on a given path, directly by the definition, to check counterexamples.
 
 use super::formula::Path;
 
 impl<A> Path<A> {
-    /// Whether it holds on the path through positions 0 to `len - 1`, the last of which steps back to `loop_start`, or is the last
-    /// state of the path if there is none. `atom` says whether an atom holds at a position.
+    /// Whether the formula holds on the path through positions 0 to `len - 1`, the last of which steps back to
+    /// `loop_start`, or is the end of the path if that is `None`. `atom` says whether an atom holds at a position.
     pub fn holds_on(&self, len: usize, loop_start: Option<usize>, atom: &dyn Fn(&A, usize) -> bool) -> bool {
         Lasso { len, loop_start, atom }.positions(self).first().copied().unwrap_or(false)
     }
@@ -21,7 +21,7 @@ impl<A> Lasso<'_, A> {
         if position + 1 < self.len { Some(position + 1) } else { self.loop_start }
     }
 
-    /// At which positions a formula holds.
+    /// Evaluates a formula at every position.
     fn positions(&self, formula: &Path<A>) -> Vec<bool> {
         let each = |value: &dyn Fn(usize) -> bool| (0..self.len).map(value).collect::<Vec<bool>>();
         let all = |value| vec![value; self.len];
@@ -60,7 +60,7 @@ impl<A> Lasso<'_, A> {
         }
     }
 
-    /// f U g, or f W g if it is weak. The second time round nothing new comes.
+    /// Evaluates f U g, or f W g if `weak`, at every position. Two passes reach the fixpoint.
     fn until(&self, f: &[bool], g: &[bool], weak: bool) -> Vec<bool> {
         let mut holds = vec![weak; self.len];
         for position in (0..self.len).rev().chain((0..self.len).rev()) {

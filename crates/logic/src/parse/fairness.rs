@@ -1,4 +1,4 @@
-//! Fairness assumptions: `again and again !start` and its like.
+//! Parser of fairness assumptions, like `again and again !start`.
 
 use pest::Parser;
 use pest::iterators::Pair;
@@ -8,15 +8,15 @@ use crate::fairness::{FairnessText, Recurrence};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{Source, Span};
 
-/// How a line is written.
+/// Help text with the forms of a line.
 pub(super) const LIKE_LINE: &str = "write it like `fair released \"what it says\": again and again !start;`, `fair: if again \
                                     and again coil then again and again contact;`, `fair: released(start, reset);` or \
                                     `fair: plant;`";
 
-/// Reads a text that says which runs count, like `again and again !start`.
+/// Parses a text that is one fairness assumption, like `again and again !start`.
 ///
 /// # Errors
-/// What keeps the text from saying so.
+/// The syntax error.
 pub fn parse_fairness(source: &Source) -> Result<FairnessText, Diagnostic> {
     let text = source.text();
     let pairs = RequirementParser::parse(Rule::lone_fairness, text).map_err(|error| {
@@ -31,7 +31,7 @@ pub fn parse_fairness(source: &Source) -> Result<FairnessText, Diagnostic> {
     }
 }
 
-/// A pair of the rule `fair_line`.
+/// Converts a pair of the rule `fair_line`.
 pub(super) fn fair_line(pair: Pair<'_, Rule>) -> Result<FairnessText, Diagnostic> {
     let (mut name, mut sentence, mut says) = (None, None, None);
     let line = span(&pair);
@@ -47,7 +47,7 @@ pub(super) fn fair_line(pair: Pair<'_, Rule>) -> Result<FairnessText, Diagnostic
     Ok(FairnessText { name, sentence, ..says })
 }
 
-/// A pair of the rule `fairness`.
+/// Converts a pair of the rule `fairness`.
 fn fairness(pair: Pair<'_, Rule>) -> Result<FairnessText, Diagnostic> {
     let (span, text) = (span(&pair), one_line(pair.as_str()));
     let (mut formulas, mut names, mut value) = (Vec::new(), Vec::new(), false);

@@ -1,4 +1,4 @@
-//! Requirement files and single domains: what stands around formulas.
+//! Parser of requirement files and of single domains.
 
 use std::collections::BTreeMap;
 
@@ -15,70 +15,70 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::key;
 use petril_base::source::{Source, Span};
 
-/// What a requirement file says.
+/// Content of a requirement file.
 #[derive(Clone, Debug, Default)]
 pub struct RequirementFile {
-    /// The requirements in their order.
+    /// Requirements in the order of the file.
     pub requirements: Vec<Requirement>,
-    /// What free inputs can be.
+    /// Domains of free inputs.
     pub domains: Vec<DomainText>,
-    /// What inputs do together.
+    /// Assumptions about inputs.
     pub assumptions: Vec<AssumptionText>,
-    /// The plants it names.
+    /// Files of plants.
     pub plants: Vec<PlantText>,
-    /// The time from one scan to the next in milliseconds, and where it stands.
+    /// Time from one scan to the next in milliseconds, with its span.
     pub scan_time: Option<(u64, Span)>,
-    /// What is asserted at places of a program.
+    /// Assertions at lines of a program.
     pub assertions: Vec<AssertionText>,
-    /// Which runs count.
+    /// Fairness assumptions.
     pub fairness: Vec<FairnessText>,
 }
 
-/// Something that is assumed of the inputs of each scan, before its names mean anything.
+/// An assumption about the inputs of each scan as written, not yet bound.
 #[derive(Clone, Debug)]
 pub struct AssumptionText {
-    /// Its name, if it has one.
+    /// Name, if there is one.
     pub name: Option<String>,
-    /// What it says in the words of its author.
+    /// Description by the author.
     pub sentence: Option<String>,
-    /// What is assumed.
+    /// Formula that is assumed.
     pub formula: Formula,
-    /// The same as it was written, on one line.
+    /// Formula as written, on one line.
     pub text: String,
-    /// Where it stands.
+    /// Position in the text.
     pub span: Span,
 }
 
-/// Something that is asserted wherever control comes to the next instruction.
+/// An assertion before an instruction as written, not yet bound.
 #[derive(Clone, Debug)]
 pub struct AssertionText {
-    /// Its name, if it has one.
+    /// Name, if there is one.
     pub name: Option<String>,
-    /// What it says in the words of its author.
+    /// Description by the author.
     pub sentence: Option<String>,
-    /// What is asserted.
+    /// Formula that is asserted.
     pub formula: Formula,
-    /// The same as it was written, on one line.
+    /// Formula as written, on one line.
     pub text: String,
-    /// Where it stands.
+    /// Position in the text.
     pub span: Span,
-    /// The same for people.
+    /// Position as file, line and column.
     pub origin: Origin,
 }
 
-/// The file of a plant.
+/// Reference to the file of a plant.
 #[derive(Clone, Debug)]
 pub struct PlantText {
-    /// The path as it was written: from the folder of the requirement file.
+    /// Path as written, relative to the folder of the requirement file.
     pub path: String,
-    /// Where it stands.
+    /// Position in the text.
     pub span: Span,
 }
 
-/// Reads a text that says what one input can be, like `level: 0..100`.
+/// Parses a text that is one domain, like `level: 0..100`.
 ///
 /// # Errors
-/// What keeps the text from saying so.
+/// The syntax error.
 pub fn parse_domain(source: &Source) -> Result<DomainText, Diagnostic> {
     let text = source.text();
     let pairs = RequirementParser::parse(Rule::lone_domain, text).map_err(|error| {
@@ -95,7 +95,7 @@ pub fn parse_domain(source: &Source) -> Result<DomainText, Diagnostic> {
     }
 }
 
-/// Reads a requirement file: what can be read, and every error.
+/// Parses a requirement file; returns what could be read, and every error.
 #[must_use]
 pub fn parse_requirements(source: &Source) -> (RequirementFile, Vec<Diagnostic>) {
     let text = source.text();
@@ -174,7 +174,7 @@ pub fn parse_requirements(source: &Source) -> (RequirementFile, Vec<Diagnostic>)
 }
 
 impl RequirementFile {
-    /// Whether it says nothing at all.
+    /// Whether the file has no content.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         let assumed = self.domains.is_empty() && self.assumptions.is_empty() && self.plants.is_empty();
@@ -205,13 +205,13 @@ fn unquoted(pair: &Pair<'_, Rule>) -> String {
     pair.as_str().trim_matches('"').to_owned()
 }
 
-/// `severity: high`, `startup`, `norm: "EN 574"`
+/// Converts a tag: `severity: high`, `startup`, `norm: "EN 574"`.
 fn tag(pair: Pair<'_, Rule>) -> Tag {
     let mut words = pair.into_inner().filter(|piece| piece.as_rule() != Rule::colon).map(|piece| unquoted(&piece));
     Tag { name: words.next().unwrap_or_default(), value: words.next() }
 }
 
-/// What is said of an assumption or assertion: name, sentence, formula, and the formula's text.
+/// Parts of an assumption or assertion: name, description, formula, and the formula's text.
 type Said = (Option<String>, Option<String>, Formula, String);
 
 fn said(pair: &Pair<'_, Rule>) -> Result<Said, Diagnostic> {
@@ -250,7 +250,7 @@ fn domain(pair: Pair<'_, Rule>) -> Result<DomainText, Diagnostic> {
     Ok(text)
 }
 
-/// Reads a piece that is no item as one, to say why it is none.
+/// Parses a piece that is not an item as one, to explain the error.
 fn explain(pair: &Pair<'_, Rule>) -> Diagnostic {
     let (text, start) = (pair.as_str(), pair.as_span().start());
     let begins = |word: &str| text.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));

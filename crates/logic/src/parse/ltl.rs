@@ -1,4 +1,4 @@
-//! Formulas of LTL: `LTL G (a -> F b)`.
+//! Parser of LTL formulas: `LTL G (a -> F b)`.
 
 use std::sync::LazyLock;
 
@@ -11,13 +11,13 @@ use crate::ltl::Path;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A formula about one path and where it stands.
+/// An LTL formula with its span.
 struct Part {
     path: Path<Formula>,
     span: Span,
 }
 
-/// A pair of the rule `ltl`.
+/// Converts a pair of the rule `ltl`.
 pub(super) fn whole(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     let span = span(&pair);
     match pair.into_inner().find(|piece| piece.as_rule() == Rule::path) {
@@ -26,11 +26,11 @@ pub(super) fn whole(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     }
 }
 
-/// A pair of the rule `path` that no `LTL` stands before: `G p` is `AG p`, as are F, X, U and W of formulas about one state with `A`
-/// before them; anything else is of LTL.
+/// Converts a pair of the rule `path` without `LTL` before it. One operator G, F, X, U or W on state formulas becomes
+/// the CTL formula with `A` before it, as `G p` becomes `AG p`; anything else is LTL.
 ///
 /// # Errors
-/// A part that would be about the first scan alone, beside one about later scans: `G a & b`.
+/// A part about the first scan only, beside one about later scans: `G a & b`.
 pub(super) fn bare(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     let span = span(&pair);
     let path = path(pair.into_inner())?.path;
@@ -46,7 +46,7 @@ pub(super) fn bare(pair: Pair<'_, Rule>) -> Result<Formula, Diagnostic> {
     Ok(Formula { expression, span })
 }
 
-/// The formula of CTL that says the same as one operator of LTL and formulas about one state.
+/// CTL formula equivalent to one LTL operator on state formulas.
 fn of_states(path: &Path<Formula>) -> Option<Expression> {
     let state = |path: &Path<Formula>| match path {
         Path::State(formula) => Some(Box::new(formula.clone())),
@@ -67,7 +67,7 @@ fn of_states(path: &Path<Formula>) -> Option<Expression> {
     }
 }
 
-/// The operators of formulas about one state bind as they do everywhere.
+/// Priorities of operators; those of state formulas are the same as in CTL.
 static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
     comparisons!(connectives!(Rule).op(Op::infix(Rule::path_until, Assoc::Right)), Rule)
         .op(Op::prefix(Rule::not) | Op::prefix(Rule::path_prefix) | Op::prefix(Rule::temporal))
@@ -85,7 +85,7 @@ fn path(pairs: Pairs<'_, Rule>) -> Result<Part, Diagnostic> {
         .parse(pairs)
 }
 
-/// `(f)`, `(f since g)`
+/// Converts a group: `(f)` or `(f since g)`.
 fn group(pair: &Pair<'_, Rule>) -> Result<Part, Diagnostic> {
     if let Some(hole) = hole(pair) {
         return Err(hole);
@@ -106,7 +106,7 @@ fn group(pair: &Pair<'_, Rule>) -> Result<Part, Diagnostic> {
     }
 }
 
-/// A formula of CTL stands in one of LTL.
+/// Makes the error that an LTL formula contains a CTL formula.
 pub(crate) fn of_ctl(span: Span) -> Diagnostic {
     let message = "a formula of LTL is about one path, so AG, EF and their like cannot stand in it";
     Diagnostic::new(Code::LtlUnfit, span, message).help("write G, F, X, U, W and R in it: `LTL G (a -> F b)`")

@@ -1,6 +1,7 @@
-//! Patterns of requirements: their short forms and sentences, and the formulas they stand for.
+//! Requirement patterns: their short forms and sentences, and the formulas they stand for.
 //!
-//! The first eleven are those of PLCverif. They speak of the ends of scans; what is so at the beginning of a scan is `pre(…)`.
+//! The first eleven are those of PLCverif. They are about the ends of scans; the beginning of a scan is expressed by
+//! `pre(…)`.
 
 use pest::iterators::Pair;
 
@@ -9,14 +10,14 @@ use crate::formula::{Amount, Comparison, Duration, Expression, Formula, Past, Qu
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// What a requirement asks for.
+/// Content of a requirement.
 #[derive(Clone, Debug)]
 pub enum Body {
-    /// A formula.
+    /// Formula that must be true.
     Formula(Formula),
-    /// That some run from power-on makes a formula true.
+    /// Formula that some run from power-on must make true.
     Possible(Formula),
-    /// That some scan comes to every line.
+    /// Every line must be executed in some scan.
     EveryLine,
 }
 
@@ -42,7 +43,7 @@ enum Pattern {
 
 use Pattern::*;
 
-/// Each pattern with the rule of its sentence, its short form, and its sentence.
+/// All patterns with the grammar rule of the sentence, the short form, and the sentence.
 const PATTERNS: [(Pattern, Rule, &str, &str); 16] = [
     (
         Implication,
@@ -117,12 +118,12 @@ const PATTERNS: [(Pattern, Rule, &str, &str); 16] = [
     (EveryLine, Rule::said_lines, "every_line_reachable()", "Some scan comes to every line of the program."),
 ];
 
-/// What the short forms are called.
+/// Names of the short forms.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     PATTERNS.iter().filter_map(|(_, _, short, _)| short.split('(').next())
 }
 
-/// What stands in a place of a pattern.
+/// Argument of a pattern.
 enum Part {
     Formula(Formula, String),
     Duration(Duration, String),
@@ -137,7 +138,7 @@ impl Part {
     }
 }
 
-/// What a pair of the rule `body` asks for, with the words of its pattern if it is one.
+/// Converts a pair of the rule `body`; returns also the sentence of the pattern, if it is one.
 pub(super) fn body(pair: Pair<'_, Rule>) -> Result<(Body, Option<String>), Diagnostic> {
     let (text, place) = (pair.as_str(), span(&pair));
     let Some(inner) = pair.into_inner().next() else {
@@ -197,7 +198,7 @@ fn parts(pair: Pair<'_, Rule>) -> Result<Vec<Part>, Diagnostic> {
                 let text = one_line(piece.as_str());
                 parts.push(Part::Duration(duration(&piece)?, text));
             }
-            // "… is false": it stands behind what it is said of.
+            // "… is false" follows the formula that it negates.
             Rule::false_word => {
                 if let Some(Part::Formula(formula, text)) = parts.pop() {
                     let (expression, span) = (Expression::Not(Box::new(formula.clone())), formula.span);
@@ -212,7 +213,7 @@ fn parts(pair: Pair<'_, Rule>) -> Result<Vec<Part>, Diagnostic> {
     Ok(parts)
 }
 
-/// The text of a part, without the braces around all of it.
+/// Text of a part, without enclosing braces.
 fn set_off<'i>(part: &Pair<'i, Rule>) -> &'i str {
     let mut inner = part.clone().into_inner();
     match (inner.next(), inner.next()) {
@@ -233,7 +234,7 @@ fn in_words(template: &str, parts: &[Part]) -> String {
     words
 }
 
-/// What a pattern asks for; nothing if the parts are not those it needs.
+/// Makes the formula of a pattern; `None` if the arguments do not fit.
 fn made_of(pattern: Pattern, parts: Vec<Part>, span: Span) -> Option<Body> {
     let make = Maker(span);
     let mut formulas = Vec::new();
@@ -242,7 +243,7 @@ fn made_of(pattern: Pattern, parts: Vec<Part>, span: Span) -> Option<Body> {
     for (position, part) in parts.into_iter().enumerate() {
         match part {
             Part::Formula(formula, _) => formulas.push(formula),
-            // The one number of scans or time of a pattern.
+            // A pattern has at most one duration.
             Part::Duration(duration, _) => durations.push((position, duration)),
         }
     }
@@ -318,7 +319,7 @@ fn made_of(pattern: Pattern, parts: Vec<Part>, span: Span) -> Option<Body> {
     Some(Body::Formula(formula))
 }
 
-/// Makes formulas that stand where the pattern stands.
+/// Makes formulas with the span of the pattern.
 struct Maker(Span);
 
 impl Maker {
@@ -342,7 +343,7 @@ impl Maker {
         self.of(Expression::Past(Past::Pre, vec![f]))
     }
 
-    /// There is nothing to compare the first scan with.
+    /// Excludes the first scan, which has no previous scan to compare with.
     fn not_at_first(&self, f: Formula) -> Formula {
         let first = self.of(Expression::FirstScan);
         self.of(Expression::Or(Box::new(first), Box::new(f)))
@@ -356,7 +357,7 @@ impl Maker {
         self.temporal(Quantifier::All, Temporal::Globally, f)
     }
 
-    /// `!E [!b U a]`
+    /// Formula `!E [!b U a]`: a is never true before b.
     fn never_before(&self, b: Formula, a: Formula) -> Formula {
         let (hold, release) = (Box::new(self.not(b)), Box::new(a));
         self.not(self.of(Expression::Until { quantifier: Quantifier::Some, weak: false, hold, release }))

@@ -1,7 +1,7 @@
-//! How strongly operators bind: one table for requirements, formulas of LTL and safety functions.
+//! Priorities of operators: one table for requirements, LTL formulas and safety functions.
 //!
-//! What both have, IEC 61131-3 says of expressions (the table of the operators of Structured Text); implications, which it does not know,
-//! bind most weakly. Each grammar has a type of rules of its own, so the table is made of macros.
+//! The priorities are those of Structured Text in IEC 61131-3; implications, which it does not have, bind most weakly.
+//! Each grammar has its own type of rules, so the table is made of macros.
 
 /// The connectives, from the weakest to the strongest.
 #[macro_export]

@@ -1,9 +1,9 @@
-//! Formulas are read with the binding the language gives them.
+//! Tests of the priorities of operators and of errors.
 
 use super::*;
 use crate::ltl::Path;
 
-/// The formula with all its parentheses.
+/// Formula with all parentheses.
 fn explicit(formula: &Formula) -> String {
     let two = |f: &Formula, sign: &str, g: &Formula| format!("({} {sign} {})", explicit(f), explicit(g));
     match &formula.expression {
@@ -55,7 +55,7 @@ fn formulas_about_paths_bind_their_operators() {
     assert_eq!(asked("LTL !a W !G b"), "LTL (!a W not G b)");
     assert_eq!(asked("LTL G !X a <-> F (b)"), "LTL (G not X a iff F b)");
     assert_eq!(asked("LTL (a | b) & !(c U (d))"), "LTL ((a | b) and not (c U d))");
-    // The operators are names where no formula follows, and `LTL` is one where none does.
+    // Operators are names where no formula follows, and so is `LTL`.
     assert_eq!(asked("LTL X = 1 & G"), "LTL ((X Equal 1) & G)");
     assert_eq!(asked("LTL (X) U F"), "LTL (X U F)");
     assert_eq!(asked("LTL G ((a since b) -> F pre(c))"), "LTL G (Since(a, b) implies F Pre(c))");
@@ -65,7 +65,7 @@ fn formulas_about_paths_bind_their_operators() {
     assert_eq!(asked("LTL F a = 1"), "a formula about a path is compared with or counted as a number");
 }
 
-/// The same of a requirement, which may be of LTL.
+/// Formula of a requirement, CTL or LTL, with all parentheses.
 fn asked(text: &str) -> String {
     match parse_requirement("r", &Source::new("formula", text)) {
         Ok(Requirement { body: Body::Formula(formula), .. }) => explicit(&formula),

@@ -1,21 +1,22 @@
-//! Which transitions a marking allows, by rows of bits or, if these would be too much, by lists of candidates.
+//! The transitions that a marking allows, by rows of bits or, if these would take too much memory, by lists of
+//! candidates.
 
 use super::candidates::Candidates;
 use super::conditions::Conditions;
 use super::packing::Packing;
 use super::rows::Rows;
 
-/// One way or the other.
+/// The transitions allowed by a marking, in one of two representations.
 pub(super) enum Allowed {
     Rows(Rows),
     Candidates(Candidates),
 }
 
-/// Words of all rows together beyond which candidates are listed: 2 MiB, about what a processor has near.
+/// Total size of all rows, in words, above which candidates are listed: 2 MiB, about a processor's cache.
 const ROWS: u64 = 1 << 18;
 
 impl Allowed {
-    /// Sets of transitions have `width` words. If not `listed`, [`Self::put`] must not be called.
+    /// Builds the tables; sets of transitions have `width` words. If not `listed`, [`Self::put`] must not be called.
     pub(super) fn of(packing: &Packing, conditions: &Conditions, width: usize, listed: bool) -> Self {
         let asked = packing.chunks.iter().filter(|chunk| !conditions.touching(chunk).is_empty());
         let rows: u64 = asked.map(|chunk| conditions.values(chunk).len() as u64).sum();
@@ -26,7 +27,7 @@ impl Allowed {
         }
     }
 
-    /// Puts into `set` what the marking allows.
+    /// Writes the transitions that the marking allows into `set`.
     #[inline(always)]
     pub(super) fn put(&self, words: &[u64], set: &mut [u64]) {
         match self {
@@ -35,7 +36,7 @@ impl Allowed {
         }
     }
 
-    /// Whether the marking allows all of a set.
+    /// Whether the marking allows all transitions of a set.
     #[inline(always)]
     pub(super) fn allows(&self, words: &[u64], set: &[u64]) -> bool {
         match self {
@@ -44,7 +45,7 @@ impl Allowed {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         match self {
             Self::Rows(rows) => rows.bytes(),

@@ -1,4 +1,4 @@
-//! What the reachability graph of a net says of its behaviour: deadlocks, dead transitions, live.
+//! Behavioural properties of a net by its reachability graph: deadlocks, dead transitions, liveness.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,23 +9,23 @@ use crate::net::TransitionId;
 use petril_search::Stop;
 use petril_search::tarjan;
 
-/// The behaviour of a net whose reachability graph is known.
+/// Behavioural properties of a net whose reachability graph is complete.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Behaviour {
-    /// Reachable markings where no transition is enabled.
+    /// Number of reachable markings in which no transition is enabled.
     pub deadlocks: u64,
-    /// Transitions that never fire.
+    /// Dead transitions: those that never fire.
     pub dead: Vec<TransitionId>,
-    /// Whether, from every reachable marking, every transition that is not dead can fire again.
+    /// Whether every transition that is not dead is live: from every reachable marking it can fire again.
     pub live_without_dead: bool,
 }
 
-/// Bits for groups of states looked at together: 32 MiB.
+/// Number of bits for groups of states examined together: 32 MiB.
 const TOGETHER: usize = 1 << 28;
 
 impl Exploration {
-    /// The behaviour a complete exploration shows. Nothing if it is not complete, its states were not kept, there is too little
-    /// memory for the graph, or `stopping` is set meanwhile.
+    /// Determines the behavioural properties from a complete exploration. `None` if it is not complete, its states were
+    /// not kept, there is too little memory for the graph, or `stopping` is set meanwhile.
     #[must_use]
     pub fn behaviour(&self, stopping: &AtomicBool) -> Option<Behaviour> {
         let dead: Vec<TransitionId> = self.figures.never_enabled.iter().map(|&id| TransitionId::at(id)).collect();
@@ -33,13 +33,13 @@ impl Exploration {
         if self.stop != Stop::Complete {
             return None;
         }
-        // A deadlock fires nothing for ever.
+        // In a deadlock no transition is live.
         let live_without_dead =
             if self.figures.deadlocks > 0 { alive == 0 } else { self.fires_everywhere(alive, stopping)? };
         Some(Behaviour { deadlocks: self.figures.deadlocks, dead, live_without_dead })
     }
 
-    /// One of the nearest markings kept in which a place has more than one token, and the place.
+    /// Finds a nearest marking kept in which a place has more than one token, and the place.
     #[must_use]
     pub fn second_token(&self) -> Option<(usize, Vec<u64>)> {
         const BLOCK: usize = 1 << 12;
@@ -59,7 +59,7 @@ impl Exploration {
         })
     }
 
-    /// Whether so many transitions fire in each component that no step leaves.
+    /// Whether `alive` transitions fire in each bottom strongly connected component.
     fn fires_everywhere(&self, alive: usize, stopping: &AtomicBool) -> Option<bool> {
         let steps = self.steps(stopping)?;
         let mut all = FixedBitSet::with_capacity(steps.rows());
@@ -75,8 +75,8 @@ impl Exploration {
         Some(self.first_lacking(bottom.len(), &group, alive, stopping)?.is_none())
     }
 
-    /// The first of `groups` sets of states, which `group` numbers, that enables fewer than `all` transitions; and those that it
-    /// does not enable. Nothing at all if `stopping` is set meanwhile.
+    /// Finds the first of `groups` sets of states, which `group` numbers, that enables fewer than `all` transitions,
+    /// and the transitions that it does not enable. The outer `None` means that `stopping` was set meanwhile.
     pub(crate) fn first_lacking(
         &self,
         groups: usize,
@@ -87,7 +87,7 @@ impl Exploration {
         const BLOCK: usize = 1 << 12;
         let transitions = self.machine.transitions;
         let states = self.kept();
-        // A bit for each group and transition may be too much at once.
+        // A bit for each group and transition may take too much memory at once.
         let together = (TOGETHER / transitions.max(1)).max(1);
         for begin in (0..groups).step_by(together) {
             let end = groups.min(begin + together);

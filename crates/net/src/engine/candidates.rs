@@ -1,26 +1,26 @@
-//! Lists of transitions that may be allowed, for nets of so many transitions that a row of bits for each would be too much.
+//! Lists of transitions that may be allowed, for nets with too many transitions for rows of bits.
 //!
-//! Each transition is listed with one chunk, at those of its values that allow it. So what has to be examined in a marking is
-//! short, and each transition examined is tested at its other chunks.
+//! Each transition is listed with one chunk, its home, at the values that allow it. So few transitions have to be
+//! examined in a marking, and each of these is tested at its other chunks.
 
 use rustc_hash::FxHashMap;
 
 use super::conditions::{Conditions, Ranges, TABLE};
 use super::packing::{Chunk, Packing};
 
-/// For each value of each chunk the transitions to be examined, and what is then examined.
+/// For each value of each home chunk the transitions to be examined, and the tests of each transition.
 pub(super) struct Candidates {
     homes: Vec<Home>,
-    /// For each value of each home, where its list begins; the next one's beginning is its end.
+    /// For each value of each home, the start of its list, which ends where the next one starts.
     starts: Vec<u32>,
     lists: Vec<u32>,
-    /// Examined in every marking.
+    /// Transitions examined in every marking.
     always: Vec<u32>,
-    /// The tests of each transition, those of its home left out.
+    /// Tests of each transition, without those of its home.
     tests: Vec<Vec<Test>>,
-    /// Values of chunks at which a condition holds, a bit for each.
+    /// Sets of values of chunks at which a condition holds, as bits.
     sets: Vec<[u64; 4]>,
-    /// Where each set stands, while there may be more.
+    /// Position of each set, while the tables are built.
     known: FxHashMap<[u64; 4], u32>,
 }
 
@@ -29,11 +29,11 @@ struct Home {
     word: usize,
     shift: u32,
     mask: u64,
-    /// Where the positions of its lists begin.
+    /// Offset of the chunk's entries in `starts`.
     start: usize,
 }
 
-/// Whether the value of a chunk is one of some.
+/// Test whether the value of a chunk is in a set.
 struct Test {
     word: u32,
     shift: u32,
@@ -42,20 +42,20 @@ struct Test {
 }
 
 enum Values {
-    /// Those of a set.
+    /// Values of the set at a position.
     Set(u32),
-    /// Those in one of some ranges, the ends included.
+    /// Values in one of several ranges, both ends included.
     Ranges(Box<[(u64, u64)]>),
 }
 
-/// No transition is listed with a chunk of more values.
+/// Maximum number of values of a home chunk.
 const MOST_VALUES: u64 = 1 << 16;
 
-/// No transition is listed with a chunk more of whose values allow it.
+/// Maximum number of values of a home chunk that allow a transition.
 const MOST_LISTS: u64 = 256;
 
 impl Candidates {
-    /// If `listed`, transitions are listed; else there are only tests, and the set of what is allowed cannot be had.
+    /// Builds the lists and tests. If not `listed`, there are only tests, and [`Self::put`] must not be called.
     pub(super) fn of(packing: &Packing, conditions: &Conditions, listed: bool) -> Self {
         let mut all = Self {
             homes: Vec::new(),
@@ -84,7 +84,7 @@ impl Candidates {
         all
     }
 
-    /// Lists transitions with a chunk.
+    /// Lists transitions with their home chunk.
     fn list(&mut self, chunk: &Chunk, transitions: &[(usize, Ranges)]) {
         if transitions.is_empty() {
             return;
@@ -118,7 +118,7 @@ impl Candidates {
         self.tests[transition].push(Test { word: chunk.word as u32, shift: chunk.shift, mask: chunk.mask, values });
     }
 
-    /// Puts into `set` what the marking allows.
+    /// Writes the transitions that the marking allows into `set`.
     #[inline(never)]
     pub(super) fn put(&self, words: &[u64], set: &mut [u64]) {
         set.fill(0);
@@ -138,7 +138,7 @@ impl Candidates {
         }
     }
 
-    /// Whether the marking allows all of a set. There must not be lists.
+    /// Whether the marking allows all transitions of a set. Only without lists.
     #[inline(never)]
     pub(super) fn allows(&self, words: &[u64], set: &[u64]) -> bool {
         set.iter().enumerate().all(|(position, &word)| {
@@ -163,14 +163,14 @@ impl Candidates {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let tests: usize = self.tests.iter().map(|tests| tests.capacity() * size_of::<Test>()).sum();
         ((self.starts.capacity() + self.lists.capacity()) * 4 + self.sets.capacity() * 32 + tests) as u64
     }
 }
 
-/// For each transition the chunk with which it is listed: the one that allows it at the smallest part of its values.
+/// Home chunk of each transition: the one that allows it at the smallest fraction of its values.
 fn choose_homes(packing: &Packing, conditions: &Conditions) -> Vec<Option<usize>> {
     let mut best: Vec<Option<(f64, usize)>> = vec![None; conditions.transitions];
     for (number, chunk) in packing.chunks.iter().enumerate().filter(|(_, chunk)| chunk.values <= MOST_VALUES) {
@@ -192,7 +192,7 @@ mod tests {
     use super::super::rows::Rows;
     use super::*;
 
-    /// A net with a ring of many places, counters and pairs, from which pseudo-random transitions take.
+    /// Net with many places, counters and pairs of places, and pseudo-random transitions.
     fn model(transitions: u64) -> Model {
         let mut seed = 1_u64;
         let mut next = |below: u64| {
@@ -208,7 +208,8 @@ mod tests {
                 arcs.post.push((next(300) as u32, 1));
             }
             for _ in 0..next(3) {
-                // 300 and 301 exchange their tokens with 303 and 304; of the places behind at most one of a pair is marked.
+                // 300 and 301 exchange their tokens with 303 and 304; of each pair of later places at most one is
+                // marked.
                 let (from, to, weight) = match next(4) {
                     0 => (300, 303, 1 + next(400)),
                     1 => (304, 301, 1 + next(3)),

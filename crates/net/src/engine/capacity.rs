@@ -1,8 +1,8 @@
-//! Exploring with at most one token on each place.
+//! Exploration with capacity 1 on each place.
 //!
-//! A place that invariants do not prove safe gets a complement, which is marked while the place is not. A transition that adds
-//! a token to the place takes that of the complement, so it never adds a second one. Where that holds it back,
-//! the net is not safe, and whoever asks finds the transition enabled in the net but not here.
+//! A place that invariants do not prove safe gets a complementary place, which is marked while the place is not. A
+//! transition that adds a token to the place takes that of the complement, so it never adds a second one. If the
+//! complement disables a transition, the net is not safe, and the transition is enabled in the net but not here.
 
 use super::cover::Bounds;
 use super::exploration::Exploration;
@@ -11,7 +11,8 @@ use super::search::{Options, explore, explore_within};
 use crate::net::Net;
 use petril_search::Progress;
 
-/// Explores the safe part of a net. The places of the net come first, then complements; the transitions are those of the net.
+/// Explores the safe part of a net. The places of the net come first, then their complements; transitions are those of
+/// the net.
 pub(crate) fn explore_safely(
     net: &Net,
     options: &Options,
@@ -44,7 +45,7 @@ fn with_complements(mut model: Model, rules: &[Rule], places: &[usize]) -> Model
     model
 }
 
-/// The arcs of a transition to the complement of a place it touches: what the place gains, the complement loses.
+/// Adds the arcs of a transition to the complement of a place it changes: the complement loses what the place gains.
 fn guard(arcs: &mut Arcs, touch: &Touch, complement: u32) {
     let gain = touch.change();
     let list = if gain > 0 { &mut arcs.pre } else { &mut arcs.post };

@@ -1,17 +1,17 @@
-//! What transitions ask of places, one by one.
+//! Conditions of transitions on single places.
 
 use super::cover::{Bounds, Content, Rest};
 use super::model::Rule;
 use super::packing::{Chunk, Packing};
 
-/// What a place has to be like for a transition.
+/// Condition of a transition on a place.
 #[derive(Clone, Copy)]
 pub(super) enum Condition {
-    /// It has so many tokens.
+    /// The place has at least this many tokens.
     AtLeast(u64),
-    /// It has none.
+    /// The place has no token.
     Empty,
-    /// So many more can be counted.
+    /// The digit of the place has room for this many more tokens.
     Room(i64),
 }
 
@@ -21,11 +21,11 @@ pub(super) struct Conditions {
     pub(super) transitions: usize,
 }
 
-/// Chunks with more values than this have one digit, and only the values are of interest at which something changes.
+/// Number of values above which a chunk has one digit, and only values at which a condition changes are tabulated.
 pub(super) const TABLE: u64 = 256;
 
 impl Conditions {
-    /// What it takes for transitions to be enabled.
+    /// Conditions for transitions to be enabled.
     pub(super) fn enabling(packing: &Packing, rules: &[Rule]) -> Self {
         let mut of_place = vec![Vec::new(); packing.places()];
         for (transition, rule) in rules.iter().enumerate() {
@@ -39,7 +39,7 @@ impl Conditions {
         Self { of_place, transitions: rules.len() }
     }
 
-    /// What it takes for no digit to be too small for a firing.
+    /// Conditions for no digit to overflow in a firing.
     pub(super) fn fitting(packing: &Packing, rules: &[Rule], bounds: &Bounds) -> Self {
         let mut of_place = vec![Vec::new(); packing.places()];
         for (transition, rule) in rules.iter().enumerate() {
@@ -50,7 +50,7 @@ impl Conditions {
         Self { of_place, transitions: rules.len() }
     }
 
-    /// The transitions with a condition on a chunk that does not hold if the chunk has a value, perhaps several times.
+    /// Transitions with a condition on a chunk that fails at a value of the chunk, possibly with repetitions.
     pub(super) fn failing<'a>(&'a self, chunk: &'a Chunk, value: u64) -> impl Iterator<Item = usize> + 'a {
         chunk.digits.iter().flat_map(move |(weight, digit)| {
             let value = value / weight % digit.radix;
@@ -64,7 +64,7 @@ impl Conditions {
         })
     }
 
-    /// The transitions with a condition on a chunk, each once, ascending.
+    /// Transitions with a condition on a chunk, ascending, each once.
     pub(super) fn touching(&self, chunk: &Chunk) -> Vec<usize> {
         let places = chunk.digits.iter().flat_map(|(_, digit)| digit.content.places());
         let mut touching: Vec<usize> = places.flat_map(|&place| &self.of_place[place]).map(|&(t, _)| t).collect();
@@ -73,7 +73,7 @@ impl Conditions {
         touching
     }
 
-    /// The values of a chunk that allow a transition, for each transition with a condition on it, ascending.
+    /// Values of a chunk that allow a transition, for each transition with a condition on the chunk, ascending.
     pub(super) fn allowing(&self, chunk: &Chunk) -> Vec<(usize, Ranges)> {
         let touching = self.touching(chunk);
         if chunk.values <= TABLE {
@@ -106,7 +106,7 @@ impl Conditions {
         allowing
     }
 
-    /// Values of a chunk, ascending from 0, such that nothing changes between one and the next.
+    /// Values of a chunk, ascending from 0, such that all conditions are constant from one to before the next.
     pub(super) fn values(&self, chunk: &Chunk) -> Vec<u64> {
         if chunk.values <= TABLE {
             return (0..chunk.values).collect();
@@ -122,7 +122,7 @@ impl Conditions {
                 }
             }
             Content::Count { place, base, .. } => {
-                // A condition on a number of tokens changes at one value.
+                // A condition on the number of tokens changes at one value.
                 values.extend(self.of_place[*place].iter().map(|(_, condition)| match *condition {
                     Condition::AtLeast(tokens) => tokens.saturating_sub(*base),
                     Condition::Empty => 1,
@@ -137,7 +137,7 @@ impl Conditions {
     }
 }
 
-/// Values, as ranges that include their ends, ascending.
+/// Set of values as ascending ranges, both ends included.
 pub(super) type Ranges = Vec<(u64, u64)>;
 
 fn intersect(left: &Ranges, right: &Ranges) -> Ranges {
@@ -146,7 +146,7 @@ fn intersect(left: &Ranges, right: &Ranges) -> Ranges {
 }
 
 impl Condition {
-    /// The values of a digit at which the condition holds on the place at a position in it.
+    /// Values of a digit at which the condition on its place at a position holds.
     fn ranges(self, content: &Content, position: u64, radix: u64) -> Ranges {
         let ranges: Ranges = match (self, content) {
             (Self::AtLeast(tokens), Content::Count { base, .. }) => vec![(tokens.saturating_sub(*base), radix - 1)],
@@ -168,7 +168,7 @@ impl Condition {
         ranges.into_iter().filter(|(first, last)| first <= last).collect()
     }
 
-    /// Whether the condition on a place holds if its digit has a value.
+    /// Whether the condition on a place holds at a value of its digit.
     fn holds(self, content: &Content, radix: u64, place: usize, value: u64) -> bool {
         let tokens = content.tokens(place, value);
         match self {

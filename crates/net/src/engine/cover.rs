@@ -1,8 +1,8 @@
-//! What of a marking has to be stored: digits, from which the tokens of every place can be told.
+//! Encoding of markings as digits, from which the tokens of every place follow.
 //!
-//! Places of which invariants prove that at most one is marked, by one token, share a digit that says which; that takes
-//! log2 k bits instead of k. The sets are chosen greedily, the one that saves most first. Every other place has a digit of
-//! its own, which counts its tokens.
+//! If a place invariant proves that at most one of k places is marked, by one token, they share a digit that says
+//! which: log2 k bits instead of k. Sets are chosen greedily, the one that saves most first. Every other place has a
+//! digit of its own, which counts its tokens.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -10,35 +10,35 @@ use std::collections::{BTreeSet, BinaryHeap};
 use super::invariants::{Invariant, Wanted, invariants};
 use super::model::{Rule, Touch};
 
-/// A number from 0 up to but not including `radix`.
+/// A digit: a number from 0 up to but not including `radix`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Digit {
     pub(super) radix: u64,
     pub(super) content: Content,
 }
 
-/// What a digit says.
+/// Meaning of a digit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// Which of these places is marked.
+    /// The one of these places that is marked.
     OneOf { places: Vec<usize>, rest: Rest },
-    /// How many tokens more than `base` the place has. If not `proven`, more may have to be counted than the digit can.
+    /// Number of tokens of the place above `base`. If not `proven`, the digit may overflow.
     Count { place: usize, base: u64, proven: bool },
 }
 
-/// How a digit says that none of its places is marked.
+/// Encoding of the case that none of a digit's places is marked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Rest {
-    /// Never, as one always is.
+    /// Does not occur: one is always marked.
     Never,
-    /// By the value 0; the places have the values from 1.
+    /// Value 0; the places have the values from 1.
     Zero,
-    /// By the value 0, which also stands for the first place: the token is on one of these places, of which other digits tell,
-    /// and otherwise on the first place. None of these is itself the first place of such a digit.
+    /// Value 0, which also stands for the first place: the token is on one of these places of other digits, and
+    /// otherwise on the first place. None of these is itself the first place of such a digit.
     Elsewhere(Vec<usize>),
 }
 
-/// How many bits a set of places saves.
+/// Number of bits that a set of places saves.
 #[derive(Clone, Copy, Debug)]
 struct Saving(f64);
 
@@ -62,13 +62,13 @@ impl PartialEq for Saving {
 
 impl Eq for Saving {}
 
-/// What invariants say about a net.
+/// Bounds on the places of a net by invariants.
 pub(super) struct Bounds {
-    /// Sets of places of which exactly one is marked, by one token.
+    /// Sets of places of which exactly one is marked, with one token.
     one_token: Vec<Vec<usize>>,
-    /// The largest number of tokens a place can have, where it is known.
+    /// Upper bound on the tokens of each place, where known.
     bounds: Vec<Option<u64>>,
-    /// Whether some transition changes the place.
+    /// Whether a transition changes the place, for each place.
     changes: Vec<bool>,
     initial: Vec<u64>,
 }
@@ -99,7 +99,7 @@ impl Bounds {
         Self { one_token, bounds, changes, initial: initial.to_vec() }
     }
 
-    /// Digits for all places. Places without a bound are counted up to `limits`.
+    /// Chooses digits for all places. Places without a bound are counted up to `limits`.
     pub(super) fn digits(&self, limits: &[u64]) -> Vec<Digit> {
         let mut digits = Vec::new();
         let mut left: Vec<bool> =
@@ -119,7 +119,7 @@ impl Bounds {
             let own = set.iter().any(|&place| firsts[place]);
             Saving(part as f64 - ((part + usize::from(own)).max(1) as f64).log2())
         };
-        // What a set saves only shrinks, so what was found before is never too little.
+        // Savings only shrink, so earlier values are upper bounds (lazy greedy).
         let sets = self.one_token.iter().enumerate();
         let mut waiting: BinaryHeap<(Saving, usize)> =
             sets.map(|(number, set)| (saving(set, &left, &firsts), number)).collect();
@@ -153,19 +153,19 @@ impl Bounds {
         digits
     }
 
-    /// Whether a place is known to have at most one token.
+    /// Whether a place is proven to have at most one token.
     pub(super) fn is_safe(&self, place: usize) -> bool {
         self.bounds[place].is_some_and(|bound| bound <= 1) || !self.changes[place] && self.initial[place] <= 1
     }
 
-    /// Whether the number of tokens of a place is known to be limited.
+    /// Whether the number of tokens of a place is proven to be bounded.
     pub(super) fn is_bounded(&self, place: usize) -> bool {
         self.bounds[place].is_some() || !self.changes[place]
     }
 }
 
 impl Content {
-    /// The places whose tokens the digit says.
+    /// Places that the digit encodes.
     pub(super) fn places(&self) -> &[usize] {
         match self {
             Self::OneOf { places, .. } => places,
@@ -173,7 +173,7 @@ impl Content {
         }
     }
 
-    /// The place marked at this value, if a place is: the first one may not be if [`Rest::Elsewhere`] says so.
+    /// The place marked at a value, if any. With [`Rest::Elsewhere`], the first place may be unmarked nevertheless.
     pub(super) fn marked(&self, value: u64) -> Option<usize> {
         match self {
             Self::OneOf { places, rest } => {
@@ -183,7 +183,8 @@ impl Content {
         }
     }
 
-    /// The number of tokens on a place of this digit if the digit is `value`, with the same reservation.
+    /// Number of tokens on a place of the digit at a value. With [`Rest::Elsewhere`], the first place may have none
+    /// nevertheless.
     pub(super) fn tokens(&self, place: usize, value: u64) -> u64 {
         match self {
             Self::OneOf { .. } => u64::from(self.marked(value) == Some(place)),
@@ -191,7 +192,7 @@ impl Content {
         }
     }
 
-    /// The digit in a marking, if the marking has one.
+    /// Value of the digit in a marking, if there is one.
     pub(super) fn value(&self, marking: &[u64]) -> Option<u64> {
         match self {
             Self::OneOf { places, rest } => {
@@ -202,7 +203,7 @@ impl Content {
         }
     }
 
-    /// How a rule changes the digit whenever it can fire.
+    /// Change of the digit by a firing.
     pub(super) fn change(&self, rule: &Rule) -> i64 {
         let at = |place: usize| rule.binary_search_by_key(&place, |touch| touch.place).ok().map(|found| rule[found]);
         match self {

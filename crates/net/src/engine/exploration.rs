@@ -1,4 +1,4 @@
-//! What an exploration leaves.
+//! Result of an exploration.
 
 use std::sync::OnceLock;
 
@@ -7,53 +7,53 @@ use super::numbering::Stretch;
 use super::shard::Shard;
 use petril_search::{Progress, Stop};
 
-/// The figures of an exploration. If it was not completed, they are those of the part explored.
+/// Figures of an exploration, or of the part explored if it was not completed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Figures {
-    /// States found.
+    /// Number of states found.
     pub states: u64,
-    /// Of these, states that were looked at and fired from.
+    /// Number of expanded states.
     pub expanded: u64,
-    /// Pairs of an expanded state and a transition it enables.
+    /// Number of pairs of an expanded state and a transition enabled in it.
     pub transitions: u64,
-    /// Firings tried. The others were known to lead to no new state. Depends on the number of threads.
+    /// Number of firings tried; the others were known to lead to no new state. Depends on the number of threads.
     pub fired: u64,
-    /// The largest number of tokens in one place of a state.
+    /// Maximum number of tokens on one place of a state.
     pub max_tokens_in_place: u64,
-    /// The largest number of tokens in a state.
+    /// Maximum total number of tokens of a state.
     pub max_tokens_in_marking: u64,
-    /// The largest number of tokens of each place.
+    /// Maximum number of tokens of each place.
     pub place_maxima: Vec<u64>,
-    /// The transitions that no expanded state enables.
+    /// Transitions that no expanded state enables.
     pub never_enabled: Vec<usize>,
-    /// Expanded states that enable no transition.
+    /// Number of deadlocks: expanded states that enable no transition.
     pub deadlocks: u64,
-    /// One of the nearest deadlocks, always the same one.
+    /// A nearest deadlock; always the same one of several.
     pub deadlock: Option<Vec<u64>>,
-    /// The largest distance of an expanded state from the initial one, in firings.
+    /// Maximum distance of an expanded state from the initial one, in firings.
     pub depth: usize,
-    /// Bits of a packed marking.
+    /// Number of bits of a packed marking.
     pub bits: u32,
-    /// Bytes in use at the end.
+    /// Memory in use at the end, in bytes.
     pub bytes: u64,
 }
 
-/// The states reached, and what is known of them.
+/// Result of an exploration: its figures and, if kept, its states.
 pub struct Exploration {
     /// Counts and maxima.
     pub figures: Figures,
-    /// Why the exploration ended.
+    /// Reason why the exploration ended.
     pub stop: Stop,
-    /// The state of which the wanted property was true, if one was found.
+    /// The wanted state, if one was found.
     pub found: Option<Vec<u64>>,
     pub(super) machine: Machine,
     pub(super) shards: Vec<Shard>,
-    /// The states in the order of their numbers, once somebody has asked for them.
+    /// States in the order of their numbers, computed when first needed.
     pub(super) stretches: OnceLock<Vec<Stretch>>,
 }
 
 impl Exploration {
-    /// The figures as those of a search under way, for whoever watches work on what it found.
+    /// Returns the figures as progress, for watchers of later work on the states.
     #[must_use]
     pub fn progress(&self) -> Progress {
         let Figures { states, depth, bytes, .. } = self.figures;

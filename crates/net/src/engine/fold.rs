@@ -1,30 +1,30 @@
-//! Markings of several words as keys of one word.
+//! Tree compression: markings of several words as keys of one word.
 //!
-//! The words are the leaves of a binary tree. Each leaf, and each inner node except the root, has a table that numbers the
-//! words it has met, where the word of an inner node is the pair of its children's numbers; the key is the pair at the root.
-//! Parts of a marking take few values compared with the whole, so the tables stay small, and a marking takes little more memory
-//! than its key. This is the recursive indexing of Holzmann (1997) and Blom, Lisser, van de Pol and Weber (2011). A firing that
-//! changes one word looks up only the nodes above it.
+//! The words are the leaves of a binary tree. Each leaf, and each inner node except the root, has a table that numbers
+//! its words, where the word of an inner node is the pair of its children's numbers; the key is the pair at the root.
+//! Parts of a marking have few values compared with the whole, so the tables stay small, and a marking takes little
+//! more memory than its key. The method is recursive indexing (Holzmann 1997), as a tree database (Blom, Lisser, van de
+//! Pol and Weber 2011). A firing that changes one word looks up only the nodes above it.
 
 use super::intern::Interner;
 use super::machine::Changes;
 
-/// The tables of all nodes but the root.
+/// Tree compression: the tables of all nodes but the root.
 pub(super) struct Fold {
-    /// Leaves first, then inner nodes, children before their parents.
+    /// Tables of the leaves, then of the inner nodes, children before parents.
     tables: Vec<Interner>,
     leaves: usize,
-    /// The two children of each inner node; the root is the last.
+    /// Left and right child of each inner node; the root is last.
     children: Vec<(usize, usize)>,
-    /// The parent of each node but the root.
+    /// Parent of each node but the root.
     parents: Vec<usize>,
 }
 
-/// The inner nodes above some words, children before their parents, without the root.
+/// Inner nodes above some words, children before parents, without the root.
 pub(super) type Above = Vec<usize>;
 
 impl Fold {
-    /// For markings of `words` words, at least two.
+    /// Makes an empty tree for markings of `words` words, at least two.
     pub(super) fn new(words: usize) -> Self {
         let mut level: Vec<usize> = (0..words).collect();
         let mut children = Vec::new();
@@ -46,12 +46,12 @@ impl Fold {
         Self { tables, leaves: words, children, parents }
     }
 
-    /// How many nodes have numbers.
+    /// Number of nodes with tables.
     pub(super) fn nodes(&self) -> usize {
         self.tables.len()
     }
 
-    /// The inner nodes whose numbers can change when these words do.
+    /// Inner nodes whose numbers can change when these words do.
     pub(super) fn above(&self, words: impl Iterator<Item = usize>) -> Above {
         let up = |word| std::iter::successors(self.parents.get(word), |&&node| self.parents.get(node));
         let mut above: Above = words.flat_map(up).copied().filter(|&node| node < self.nodes()).collect();
@@ -73,21 +73,21 @@ impl Fold {
         numbers[node] = self.tables[node].number(pair(numbers[left], numbers[right]));
     }
 
-    /// The key, when all nodes are numbered.
+    /// Key of a marking whose nodes are numbered.
     #[inline(always)]
     pub(super) fn root(&self, numbers: &[u32]) -> u64 {
         let (left, right) = self.children[self.children.len() - 1];
         pair(numbers[left], numbers[right])
     }
 
-    /// The key of a marking.
+    /// Computes the key of a marking, and numbers its new parts.
     pub(super) fn key(&mut self, words: &[u64], numbers: &mut [u32]) -> u64 {
         words.iter().enumerate().for_each(|(leaf, &word)| self.leaf(leaf, word, numbers));
         (self.leaves..self.nodes()).for_each(|node| self.inner(node, numbers));
         self.root(numbers)
     }
 
-    /// The key of a marking, if its parts were met before.
+    /// Finds the key of a marking, if all its parts have numbers.
     pub(super) fn find(&self, words: &[u64]) -> Option<u64> {
         let mut numbers = Vec::with_capacity(self.nodes());
         for (table, &word) in self.tables.iter().zip(words) {
@@ -100,7 +100,8 @@ impl Fold {
         Some(self.root(&numbers))
     }
 
-    /// The key of a marking, if its parts were met before: `numbers` are those of a marking that differs by `changes`.
+    /// Finds the key of a marking, if all its parts have numbers; `numbers` are those of a marking that differs by
+    /// `changes`.
     pub(super) fn find_after(&self, words: &[u64], changes: &Changes, numbers: &mut [u32]) -> Option<u64> {
         for &(leaf, _) in &changes.words {
             numbers[leaf] = self.tables[leaf].find(words[leaf])?;
@@ -112,7 +113,7 @@ impl Fold {
         Some(self.root(numbers))
     }
 
-    /// The words of a key, and the numbers of its nodes.
+    /// Decodes a key to the words and the numbers of the nodes.
     #[inline]
     pub(super) fn unfold(&self, key: u64, words: &mut [u64], numbers: &mut [u32]) {
         let (left, right) = self.children[self.children.len() - 1];
@@ -127,13 +128,13 @@ impl Fold {
         }
     }
 
-    /// How many numbers the left and the right part of a key have been given.
+    /// Numbers of values of the left and of the right half of a key.
     pub(super) fn numbers(&self) -> (usize, usize) {
         let (left, right) = self.children[self.children.len() - 1];
         (self.tables[left].len(), self.tables[right].len())
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.tables.iter().map(Interner::bytes).sum()
     }

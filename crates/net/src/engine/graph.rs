@@ -1,4 +1,4 @@
-//! The reachability graph in compressed rows, made from kept states.
+//! The reachability graph in compressed sparse rows, made from kept states.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,49 +10,51 @@ use super::index::Index;
 use super::numbering::Stretch;
 use super::shard::owner;
 
-/// The steps from the expanded states of an exploration. States are numbered from 0, the initial one, in the order of their
-/// distances from it, and the expanded ones first. The numbers depend on the number of threads.
+/// Steps from the expanded states of an exploration. States are numbered from 0, the initial one, by their distance
+/// from it, expanded ones first. The numbers depend on the number of threads.
 pub struct Steps {
     starts: Vec<u64>,
     targets: Vec<u32>,
 }
 
 impl Steps {
-    /// Number of states with a row: the expanded ones, as far as steps were asked for.
+    /// Number of states with a row: the expanded ones, or the first of these if rows were limited.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// Where the successors of each of these states begin, and last where they end; and all successors, one state after another.
+    /// Returns the start of each state's successors, followed by the end of the last, and the successors of all states
+    /// in order.
     #[must_use]
     pub fn into_parts(self) -> (Vec<u64>, Vec<u32>) {
         (self.starts, self.targets)
     }
 
-    /// The successors of an expanded state, one for each transition it enables, in their order. The number of states kept
-    /// stands for a successor that was not kept.
+    /// Successors of an expanded state, one for each enabled transition, in the order of transitions. The number of
+    /// states kept stands for a successor that was not kept.
     #[must_use]
     pub fn successors(&self, state: u32) -> &[u32] {
         &self.targets[self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize]
     }
 }
 
-/// Steps whose targets are looked up together.
+/// Number of steps whose targets are looked up together.
 const TOGETHER: usize = 256;
 
-/// States whose steps are found by one thread at a time.
+/// Number of states whose steps are found by one thread at a time.
 const BLOCK: usize = 1 << 13;
 
 impl Exploration {
-    /// All steps of the expanded states, found on all processors. Nothing if there are no states, or too many to be numbered,
-    /// or too little memory, or `stopping` is set meanwhile.
+    /// Computes all steps of the expanded states, on all processors. `None` if there are no states, or too many to be
+    /// numbered, or too little memory, or `stopping` is set meanwhile.
     #[must_use]
     pub fn steps(&self, stopping: &AtomicBool) -> Option<Steps> {
         self.steps_within(usize::MAX, stopping)
     }
 
-    /// As [`Self::steps`], but only the rows of the first states that together have at most `most` steps.
+    /// Computes steps as [`Self::steps`] does, but only the rows of the first states with at most `most` steps in
+    /// total.
     pub(crate) fn steps_within(&self, most: usize, stopping: &AtomicBool) -> Option<Steps> {
         let states = self.kept();
         if states == 0 || states >= u32::MAX as usize {
@@ -80,7 +82,7 @@ impl Exploration {
         (!stopping.load(Ordering::Relaxed)).then_some(Steps { starts, targets })
     }
 
-    /// Where the steps of each expanded state begin.
+    /// Offsets of the steps of each expanded state.
     fn counted(&self, stretches: &[Stretch], stopping: &AtomicBool) -> Option<Vec<u64>> {
         let mut starts = filled(0_u64, self.expanded() + 1)?;
         starts[1..].par_chunks_mut(BLOCK).enumerate().for_each(|(block, counts)| {
@@ -100,7 +102,8 @@ impl Exploration {
         (!stopping.load(Ordering::Relaxed)).then_some(starts)
     }
 
-    /// Puts the successors of some expanded states into `targets`, which hold the number that stands for others.
+    /// Writes the successors of expanded states into `targets`, which are preset to the number that stands for states
+    /// not kept.
     fn steps_of(&self, numbers: Range<u32>, stretches: &[Stretch], indices: &[Index], targets: &mut [u32]) {
         let machine = &self.machine;
         let mut found: Vec<Vec<(u64, usize)>> = vec![Vec::with_capacity(TOGETHER); self.shards.len()];
@@ -111,7 +114,7 @@ impl Exploration {
         self.visit(stretches, numbers, |_, shard, view, nodes| {
             for transition in view.enabled() {
                 after.copy_from_slice(view.words);
-                // An expanded state fires all it enables; were it otherwise, its successor would not be known.
+                // No enabled transition of an expanded state overflows; if one did, its successor would be unknown.
                 if !machine.fire(transition, &mut after) {
                     at += 1;
                     continue;
@@ -136,7 +139,7 @@ impl Exploration {
         }
     }
 
-    /// For each shard the numbers of its keys.
+    /// Index of the keys of each shard.
     fn indices(&self, stretches: &[Stretch], stopping: &AtomicBool) -> Option<Vec<Index>> {
         let index = |shard: usize| {
             let states = &self.shards[shard];
@@ -156,7 +159,7 @@ impl Exploration {
     }
 }
 
-/// A list of equal numbers; nothing if there is too little memory.
+/// List of equal values; `None` if there is too little memory.
 fn filled<T: Clone>(value: T, len: usize) -> Option<Vec<T>> {
     let mut list = Vec::new();
     list.try_reserve_exact(len).ok()?;
@@ -164,7 +167,7 @@ fn filled<T: Clone>(value: T, len: usize) -> Option<Vec<T>> {
     Some(list)
 }
 
-/// Replaces targets, given by their keys and where they stand, by their numbers.
+/// Looks up targets by their keys, and writes their numbers at their positions.
 fn resolve(index: &Index, found: &mut Vec<(u64, usize)>, keys: &mut Vec<u64>, targets: &mut [u32]) {
     keys.clear();
     keys.extend(found.iter().map(|&(key, _)| key));

@@ -1,21 +1,21 @@
-//! Numbers for keys, in a table beside that of the keys.
+//! Map from keys to numbers: a table of numbers beside the set of keys.
 
 use std::hint::black_box;
 
 use super::keys::{BATCH, Keys};
 use petril_search::is_available;
 
-/// Keys with a number each.
+/// Map from keys to numbers.
 pub(super) struct Index {
     keys: Keys,
     numbers: Vec<u32>,
 }
 
-/// Keys with their numbers, which can be gone through again.
+/// Repeatable iteration over keys with their numbers.
 type Entries<'a> = &'a dyn Fn(&mut dyn FnMut(u64, u32));
 
 impl Index {
-    /// An index of about so many keys of some bits. Nothing if there is too little memory.
+    /// Builds an index of about `room` keys of `bits` bits. `None` if there is too little memory.
     pub(super) fn of(bits: u32, room: usize, entries: Entries<'_>) -> Option<Self> {
         // Entries of 8 bytes and numbers of 4, with room to spare.
         if !is_available(room as u64 * 32) {
@@ -41,7 +41,7 @@ impl Index {
         complete.then_some(Self { keys, numbers })
     }
 
-    /// Reports the positions of keys that have a number, with it.
+    /// Calls `found` with the position and the number of each key that has one.
     pub(super) fn find(&self, keys: &[u64], mut found: impl FnMut(usize, u32)) {
         for (batch, start) in keys.chunks(BATCH).zip((0..).step_by(BATCH)) {
             black_box(batch.iter().fold(0, |seen, &key| seen ^ self.keys.touch(key)));
@@ -60,7 +60,7 @@ impl Index {
 mod tests {
     use super::*;
 
-    /// Few keys of many bits that differ in one bit only: each has its own number, whatever bit that is.
+    /// Few keys of many bits that differ in only one bit: each has its own number, whichever bit it is.
     #[test]
     fn wide_keys_in_small_indices_are_told_apart() {
         for bits in 2..=64_u32 {
@@ -74,7 +74,7 @@ mod tests {
                 let mut found = vec![None; keys.len()];
                 index.find(keys, |position, number| found[position] = Some(number));
                 let mut expected = vec![None; keys.len()];
-                // A key that is there twice has the number that came last.
+                // A key that occurs twice has the last number.
                 entries(&mut |key, number| {
                     let same = keys.iter().enumerate().filter(|(_, other)| **other == key);
                     same.for_each(|(position, _)| expected[position] = Some(number));

@@ -1,26 +1,26 @@
-//! Numbers for words: equal words have equal numbers, given in the order in which they are first seen.
+//! Interning: equal words have equal numbers, assigned in the order of first occurrence.
 
-/// Words with their numbers.
+/// Interned words with their numbers.
 #[derive(Default)]
 pub(super) struct Interner {
     words: Vec<u64>,
-    /// For each slot a number and 1, or 0. There are at least twice as many slots as numbers.
+    /// Open hash table: each slot is a number plus 1, or 0 if empty. There are at least twice as many slots as numbers.
     slots: Vec<u32>,
 }
 
 impl Interner {
-    /// How many words have a number.
+    /// Number of interned words.
     pub(super) fn len(&self) -> usize {
         self.words.len()
     }
 
-    /// The word with a number.
+    /// The word of a number.
     #[inline(always)]
     pub(super) fn word(&self, number: u32) -> u64 {
         self.words[number as usize]
     }
 
-    /// The number of a word, a new one if it has none.
+    /// Returns the number of a word, a new one if it has none.
     #[inline(always)]
     pub(super) fn number(&mut self, word: u64) -> u32 {
         if self.words.len() * 2 >= self.slots.len() {
@@ -41,7 +41,7 @@ impl Interner {
         }
     }
 
-    /// The number of a word, if it has one.
+    /// Finds the number of a word, if it has one.
     pub(super) fn find(&self, word: u64) -> Option<u32> {
         if self.slots.is_empty() {
             return None;
@@ -56,7 +56,7 @@ impl Interner {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         (self.words.capacity() * 8 + self.slots.capacity() * 4) as u64
     }

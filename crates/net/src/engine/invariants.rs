@@ -1,17 +1,18 @@
-//! Place invariants of a net, as far as they tell how few bits a marking needs.
+//! Place invariants of a net, for the encoding of markings.
 
 use super::model::Rule;
 pub(super) use crate::structure::semiflows::Wanted;
 use crate::structure::semiflows::{Limits, Row, semiflows};
 
-/// Places with weights, ascending; in every reachable marking the weighted sum of their tokens is `tokens`.
+/// Place invariant: places with weights, ascending, whose weighted sum of tokens is `tokens` in every reachable
+/// marking.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Invariant {
     pub(super) weights: Vec<(usize, u64)>,
     pub(super) tokens: u64,
 }
 
-/// Minimal invariants of a net, perhaps not all.
+/// Computes minimal invariants of a net, possibly not all.
 pub(super) fn invariants(initial: &[u64], rules: &[Rule], wanted: Wanted) -> Vec<Invariant> {
     let mut changes: Vec<Vec<(u32, i64)>> = vec![Vec::new(); initial.len()];
     for (transition, rule) in rules.iter().enumerate() {

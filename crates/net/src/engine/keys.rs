@@ -1,7 +1,7 @@
-//! The set of all keys seen so far, in the smallest of several shapes.
+//! The set of all keys seen so far, in the smallest of several representations.
 //!
-//! Keys of b bits in 2^l lines leave b - l bits to be stored. So the more keys there are, the smaller an entry can be; and
-//! when a bit for every possible key takes no more memory than a table would, that is the shape.
+//! In 2^l lines, b - l bits of a key of b bits have to be stored. So the more keys there are, the smaller an entry can
+//! be; and if a bit for every possible key takes no more memory than a table, a bit set is used.
 
 use std::hint::black_box;
 
@@ -12,12 +12,12 @@ use petril_search::is_available;
 pub(super) struct Keys {
     bits: u32,
     shape: Shape,
-    /// Bytes that the table and a larger one may take together while one is made of the other.
+    /// Maximum memory of the table and its larger successor together while the table grows, in bytes.
     most: u64,
 }
 
 enum Shape {
-    /// A bit for each possible key.
+    /// Bit set with a bit for each possible key.
     Dense {
         set: Vec<u64>,
         len: usize,
@@ -27,22 +27,22 @@ enum Shape {
     Long(Lines<u64, 8>),
 }
 
-/// Bits of keys for which a bit for each possible key is always used: 256 KiB.
+/// Number of bits of keys up to which a bit set is always used: 256 KiB.
 const DENSE: u32 = 21;
 
-/// Bytes of tables that are made whatever the limit is.
+/// Size of tables in bytes that is allowed whatever the limit.
 const SMALL: u64 = 1 << 20;
 
-/// Keys entered together. Their lines fit into the nearest memory.
+/// Number of keys inserted together. Their lines fit into the innermost cache.
 pub(super) const BATCH: usize = 128;
 
 impl Keys {
-    /// An empty set of keys of 1 to 64 bits, in lines, with room for so many.
+    /// Makes an empty set for keys of 1 to 64 bits, in lines, with room for `room` keys.
     pub(super) fn in_lines(bits: u32, room: usize) -> Self {
         Self { bits, shape: Shape::lines(bits, room), most: u64::MAX }
     }
 
-    /// Where a key is, as a number below [`Self::slots`].
+    /// Slot of a key, a number below [`Self::slots`], if it is in the set.
     #[inline(always)]
     pub(super) fn slot(&self, key: u64) -> Option<usize> {
         match &self.shape {
@@ -53,7 +53,7 @@ impl Keys {
         }
     }
 
-    /// Reads near where a key is.
+    /// Prefetches the memory of a key.
     #[inline(always)]
     pub(super) fn touch(&self, key: u64) -> u64 {
         match &self.shape {
@@ -64,7 +64,7 @@ impl Keys {
         }
     }
 
-    /// How many slots there are.
+    /// Number of slots.
     pub(super) fn slots(&self) -> usize {
         match &self.shape {
             Shape::Dense { set, .. } => set.len() * 64,
@@ -74,17 +74,17 @@ impl Keys {
         }
     }
 
-    /// An empty set of keys of 1 to 64 bits.
+    /// Makes an empty set for keys of 1 to 64 bits.
     pub(super) fn new(bits: u32) -> Self {
         Self { bits, shape: Shape::of(bits, 1 << 15), most: u64::MAX }
     }
 
-    /// How many bits a key has.
+    /// Number of bits of a key.
     pub(super) fn bits(&self) -> u32 {
         self.bits
     }
 
-    /// How many keys there are.
+    /// Number of keys.
     pub(super) fn len(&self) -> usize {
         match &self.shape {
             Shape::Dense { len, .. } => *len,
@@ -94,18 +94,18 @@ impl Keys {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.shape.bytes()
     }
 
-    /// From now on, the table grows only if it and the larger one take at most so many bytes.
+    /// Limits growth: the table and the larger one may together take at most `most` bytes.
     pub(super) fn grow_within(&mut self, most: u64) {
         self.most = most;
     }
 
-    /// Enters keys, and reports the positions of those that were not there. False if there is no room for some of them, which
-    /// are left out.
+    /// Inserts keys, and calls `new` with the positions of new ones. Returns false if there is no room for some of
+    /// them, which are left out.
     #[must_use]
     #[inline]
     pub(super) fn insert(&mut self, keys: &[u64], mut new: impl FnMut(usize)) -> bool {
@@ -132,10 +132,10 @@ impl Keys {
         true
     }
 
-    /// Makes keys of more bits of all keys. False, and nothing done, if there is no room for that.
+    /// Replaces all keys by keys of more bits. Returns false and does nothing if there is no room.
     #[must_use]
     pub(super) fn widen(&mut self, bits: u32, key: impl Fn(u64) -> u64) -> bool {
-        // Entries of more bits, and room for more of them.
+        // Entries have more bits, and there is room for more of them.
         if !self.may_take(self.bytes().saturating_mul(4)) {
             return false;
         }
@@ -167,12 +167,12 @@ impl Keys {
         complete
     }
 
-    /// Whether a table of so many bytes may be made beside this one.
+    /// Whether a table of `bytes` bytes may be made beside this one.
     fn may_take(&self, bytes: u64) -> bool {
         self.bytes().saturating_add(bytes) <= self.most.max(SMALL) && is_available(bytes)
     }
 
-    /// Makes room for so many keys more. False if that takes too much memory.
+    /// Makes room for `more` keys. Returns false if that takes too much memory.
     fn reserve(&mut self, more: usize) -> bool {
         let full = match &self.shape {
             Shape::Dense { .. } => false,
@@ -183,9 +183,9 @@ impl Keys {
         !full || self.grow()
     }
 
-    /// Twice the room. False, and nothing done, if that takes too much memory.
+    /// Doubles the room. Returns false and does nothing if that takes too much memory.
     fn grow(&mut self) -> bool {
-        // Entries never become longer by that.
+        // Entries never become longer when the table grows.
         if !self.may_take(self.bytes().saturating_mul(2)) {
             return false;
         }
@@ -214,7 +214,7 @@ impl Keys {
 }
 
 impl Shape {
-    /// The smallest shape with room for so many keys.
+    /// Makes the smallest representation with room for `room` keys.
     fn of(bits: u32, room: usize) -> Self {
         let lines = Self::lines(bits, room);
         if bits <= DENSE || bits < 64 && 1 << (bits - 3) <= lines.bytes() {
@@ -224,9 +224,9 @@ impl Shape {
         }
     }
 
-    /// The smallest entries with room for so many keys.
+    /// Makes a table with the smallest entries and room for `room` keys.
     fn lines(bits: u32, room: usize) -> Self {
-        // As many lines as there is room for, but no more than there are keys.
+        // As many lines as there is room for, but no more than possible keys.
         let lines = |per_line: usize| (room * 8 / 7 + 1).div_ceil(per_line).next_power_of_two().ilog2().min(bits - 1);
         let (short, medium, long) = (lines(32), lines(16), lines(8));
         if bits <= capacity::<u16>() + short {
@@ -234,7 +234,7 @@ impl Shape {
         } else if bits <= capacity::<u32>() + medium {
             Self::Medium(Lines::new(bits, medium))
         } else {
-            // What an entry cannot hold, its line must say, however few keys there are.
+            // Bits that an entry cannot hold must be in the number of its line, however few keys there are.
             Self::Long(Lines::new(bits, long.max(bits.saturating_sub(capacity::<u64>()))))
         }
     }
@@ -264,12 +264,12 @@ impl Shape {
     }
 }
 
-/// Enters keys until there is no room; returns how many were entered.
+/// Inserts keys until there is no room; returns the number of keys inserted.
 #[inline(always)]
 fn enter<E: Entry, const N: usize>(lines: &mut Lines<E, N>, keys: &[u64], mut new: impl FnMut(usize)) -> usize {
     let mut scrambled = [0; BATCH];
     let mut seen = 0;
-    // No load waits for another here, so many are under way at a time.
+    // The loads are independent, so many of them overlap.
     for (scrambled, &key) in scrambled.iter_mut().zip(keys) {
         *scrambled = lines.scrambled(key);
         seen ^= lines.touch(*scrambled);

@@ -1,14 +1,14 @@
-//! A hash table in lines of 64 bytes, as processors fetch memory. An entry holds only what its place does not say.
+//! Compact hash table (quotienting; Cleary 1984) with cache lines of 64 bytes as buckets.
 //!
-//! A key is scrambled; its high bits name a line, its home, and its low bits are stored there, or in one of the next lines if
-//! the home is full, together with the distance from home. So a look-up reads one line, rarely two. Lines are filled from
-//! their beginning, and nothing is ever removed.
+//! A key is scrambled by a permutation. Its high bits are the number of a line, its home; only its low bits are stored,
+//! there or in one of the next lines if the home is full, together with the distance from home. So a look-up reads one
+//! line, rarely two. Lines are filled from their beginning, and nothing is ever removed.
 
 use super::scramble::Scramble;
 
-/// An entry of 2, 4 or 8 bytes; 0 means that there is none.
+/// Entry of 2, 4 or 8 bytes; 0 is an empty slot.
 pub(super) trait Entry: Copy + PartialEq + Default {
-    /// How many bits it has.
+    /// Number of bits of an entry.
     const BITS: u32 = 8 * size_of::<Self>() as u32;
     fn pack(tag: u64) -> Self;
     fn tag(self) -> u64;
@@ -30,38 +30,38 @@ macro_rules! entry {
 }
 entry!(u16, u32, u64);
 
-/// Bits for the distance from home.
+/// Number of bits for the distance from home.
 const DISTANCE: u32 = 4;
 
-/// Bits of a key that an entry of this type can hold.
+/// Number of bits of a key that an entry can hold.
 pub(super) const fn capacity<E: Entry>() -> u32 {
-    // One is added to all entries so that none is 0.
+    // 1 is added to all entries so that none is 0.
     E::BITS - DISTANCE - 1
 }
 
-/// 2^`lines` lines of `N` entries.
+/// Compact hash table of 2^`lines` lines of `N` entries.
 pub(super) struct Lines<E, const N: usize> {
     entries: Vec<E>,
-    /// Where the first line begins, so that lines are those of the memory.
+    /// Offset of the first line, so that lines are aligned to cache lines.
     first: usize,
     lines: u32,
-    /// Bits of a key that are stored.
+    /// Number of bits of a key that are stored (the remainder).
     rest: u32,
     scramble: Scramble,
     len: usize,
 }
 
-/// What became of a key.
+/// Result of inserting a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Entered {
     Old,
     New,
-    /// There is no room near its home.
+    /// There is no room near the home of the key.
     Full,
 }
 
 impl<E: Entry, const N: usize> Lines<E, N> {
-    /// An empty table for keys of `bits` bits.
+    /// Makes an empty table for keys of `bits` bits.
     pub(super) fn new(bits: u32, lines: u32) -> Self
     where
         Vec<E>: FromIterator<E>,
@@ -76,7 +76,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         self.len
     }
 
-    /// How many keys there can be before look-ups become slow.
+    /// Number of keys above which look-ups become slow.
     pub(super) fn room(&self) -> usize {
         (N << self.lines) / 8 * 7
     }
@@ -85,7 +85,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         (self.entries.capacity() * size_of::<E>()) as u64
     }
 
-    /// The scrambled key, for the other functions.
+    /// Returns the scrambled key, which the other functions take.
     #[inline(always)]
     pub(super) fn scrambled(&self, key: u64) -> u64 {
         self.scramble.scramble(key)
@@ -96,13 +96,13 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         (scrambled >> self.rest) as usize
     }
 
-    /// Reads an entry of the home line, so that the line is near when it is needed.
+    /// Prefetches the home line by reading an entry.
     #[inline(always)]
     pub(super) fn touch(&self, scrambled: u64) -> u64 {
         self.entries[self.first + self.line(scrambled) * N].tag()
     }
 
-    /// Enters a key unless it is there.
+    /// Inserts a key unless it is there.
     #[inline(always)]
     pub(super) fn insert(&mut self, scrambled: u64) -> Entered {
         let home = self.line(scrambled);
@@ -113,14 +113,14 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         if used == N && !found {
             return self.insert_away(scrambled);
         }
-        // Whether a key is new cannot be foreseen, so nothing depends on it that a processor would guess.
+        // Whether a key is new is unpredictable, so there is no branch on it.
         let at = used.min(N - 1);
         line[at] = if found { line[at] } else { tag };
         self.len += usize::from(!found);
         if found { Entered::Old } else { Entered::New }
     }
 
-    /// Enters a key whose home is full.
+    /// Inserts a key whose home is full.
     #[inline(never)]
     fn insert_away(&mut self, scrambled: u64) -> Entered {
         for distance in 1..1 << DISTANCE {
@@ -140,13 +140,13 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         Entered::Full
     }
 
-    /// What is stored of a key.
+    /// Remainder of a key: the bits that are stored.
     #[inline(always)]
     fn rest_of(&self, scrambled: u64) -> u64 {
         scrambled & !(u64::MAX << self.rest)
     }
 
-    /// Where a key is, as a number below [`Self::slots`].
+    /// Slot of a key, a number below [`Self::slots`], if it is in the table.
     #[inline(always)]
     pub(super) fn slot(&self, scrambled: u64) -> Option<usize> {
         let home = self.line(scrambled);
@@ -155,7 +155,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
             let tag = E::pack((rest << DISTANCE | distance as u64) + 1);
             let start = ((home + distance) & ((1 << self.lines) - 1)) * N;
             let line = self.entries[self.first + start..].first_chunk::<N>()?;
-            // Looking at all of them takes no branch that a processor would have to guess.
+            // All entries are compared, which avoids an unpredictable branch.
             let at: u32 = line.iter().zip(1..).map(|(&entry, at)| if entry == tag { at } else { 0 }).sum();
             if at > 0 {
                 return Some(start + at as usize - 1);
@@ -167,15 +167,15 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         None
     }
 
-    /// How many slots there are.
+    /// Number of slots.
     pub(super) fn slots(&self) -> usize {
         N << self.lines
     }
 
-    /// Enters all keys of another table of the same kind of keys into this one, which is empty; whether there was room. As both
-    /// have their keys in the same order, memory is read and written almost in sequence.
+    /// Inserts all keys of another table with keys of the same size into this empty one. Returns whether there was
+    /// room. Both tables have their keys in the same order, so memory is read and written almost sequentially.
     pub(super) fn append_all<F: Entry, const M: usize>(&mut self, other: &Lines<F, M>) -> bool {
-        // How many entries of each line are used. Reading that from the line itself would wait for what was just written.
+        // Number of entries used in each line. Reading it from the line would wait for the last write.
         let mut used = vec![0_u8; 1 << self.lines];
         for (number, line) in other.entries[other.first..].chunks_exact(M).take(1 << other.lines).enumerate() {
             for &entry in line {
@@ -201,7 +201,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         true
     }
 
-    /// The scrambled key of an entry in a line.
+    /// Scrambled key of an entry in a line.
     #[inline(always)]
     fn unpack(&self, line: usize, entry: E) -> u64 {
         let tag = entry.tag() - 1;
@@ -210,7 +210,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
         (home as u64) << self.rest | tag >> DISTANCE
     }
 
-    /// Every key.
+    /// All keys.
     pub(super) fn keys(&self) -> impl Iterator<Item = u64> {
         let used = self.entries[self.first..].chunks_exact(N).take(1 << self.lines).enumerate();
         used.flat_map(move |(number, line)| {
@@ -220,7 +220,7 @@ impl<E: Entry, const N: usize> Lines<E, N> {
     }
 }
 
-/// How many entries of a line are used, and whether this is one of them.
+/// Number of used entries of a line, and whether `tag` is one of them.
 #[inline(always)]
 fn search<E: Entry, const N: usize>(line: &[E; N], tag: E) -> (usize, bool) {
     let (mut used, mut found) = (0, 0);

@@ -1,4 +1,4 @@
-//! A net made ready for exploration: packing, tables, and what firing adds.
+//! A net prepared for exploration: packing, tables, and the changes by firing.
 
 use super::allowed::Allowed;
 use super::conditions::Conditions;
@@ -9,36 +9,37 @@ use super::packing::Packing;
 use super::swaps::Swaps;
 use super::tally::Meter;
 
-/// Everything a search reads.
+/// A net prepared for exploration; read-only during a search.
 pub(super) struct Machine {
     pub(super) packing: Packing,
-    /// The initial marking, packed.
+    /// Packed initial marking.
     pub(super) initial: Vec<u64>,
     pub(super) transitions: usize,
-    /// Words of a set of transitions.
+    /// Number of words of a set of transitions.
     pub(super) width: usize,
-    /// The transitions a marking enables.
+    /// Table of the transitions that a marking enables.
     pub(super) enabled: Allowed,
-    /// The transitions whose firing no digit is too small for; nothing if that is all.
+    /// Table of the transitions whose firing makes no digit overflow; `None` if no digit can.
     pub(super) fits: Option<Allowed>,
-    /// For each transition, the digits without a proven bound that it raises, and by how much; nothing if there are none.
+    /// For each transition, the places without a proven bound that it increases, and by how much; empty if there are
+    /// none.
     raised: Vec<Vec<(usize, u64)>>,
     pub(super) swaps: Swaps,
     pub(super) meter: Meter,
-    /// What firing a transition adds to a marking of one word.
+    /// Number that firing each transition adds to a marking of one word.
     pub(super) change: Vec<u64>,
-    /// What firing a transition does to a marking of several words.
+    /// Changes by each transition to a marking of several words.
     pub(super) changes: Vec<Changes>,
 }
 
-/// What firing adds to some words, and the nodes of the fold above them.
+/// Numbers that a firing adds to words, and the nodes above these in the compression tree.
 pub(super) struct Changes {
     pub(super) words: Vec<(usize, u64)>,
     pub(super) above: Above,
 }
 
 impl Machine {
-    /// Places without a bound are counted up to `limits`.
+    /// Prepares a net; places without a bound are counted up to `limits`.
     pub(super) fn new(initial: &[u64], rules: &[Rule], bounds: &Bounds, limits: &[u64]) -> Self {
         let packing = Packing::of(bounds.digits(limits), initial.len());
         let width = match rules.len().div_ceil(64) {
@@ -74,13 +75,13 @@ impl Machine {
         }
     }
 
-    /// Whether no digit is too small for firing a transition, so that nothing is carried into its neighbour.
+    /// Whether firing a transition makes no digit overflow into its neighbour.
     pub(super) fn fits(&self, transition: usize, words: &[u64]) -> bool {
         let raised = self.raised.get(transition).map_or(&[][..], Vec::as_slice);
         raised.iter().all(|&(place, more)| self.packing.has_room(words, place, more))
     }
 
-    /// Fires a transition that is enabled. False, and nothing done, if a digit is too small.
+    /// Fires an enabled transition. Returns false and does nothing if a digit would overflow.
     #[must_use]
     pub(super) fn fire(&self, transition: usize, words: &mut [u64]) -> bool {
         if !self.fits(transition, words) {
@@ -103,13 +104,13 @@ impl Machine {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.enabled.bytes() + self.fits.as_ref().map_or(0, Allowed::bytes) + self.swaps.bytes()
     }
 }
 
-/// The places without a bound where a transition leaves more tokens, and how many more.
+/// Places without a bound that a transition increases, and by how much.
 fn raised(rule: &Rule, bounds: &Bounds) -> Vec<(usize, u64)> {
     let raised = rule.iter().filter(|touch| touch.change() > 0 && !bounds.is_bounded(touch.place));
     raised.map(|touch| (touch.place, touch.change().unsigned_abs())).collect()

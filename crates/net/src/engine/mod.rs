@@ -1,10 +1,10 @@
-//! Explicit exploration of place/transition nets, built for speed and small memory.
+//! Explicit-state exploration of place/transition nets, designed for speed and little memory.
 //!
-//! A [`Model`] is any place/transition net. Its place invariants tell how few bits a marking needs (`cover`, `packing`);
-//! tables tell what a packed marking enables (`rows`, `candidates`), and firing is one addition. Firings that another order of the same
-//! firings makes superfluous are left out (`swaps`). States are entered into a table whose entries hold only what their place in
-//! it does not say (`lines`, `keys`), those of more than 64 bits after being folded (`fold`). A search for a [`Goal`](crate::Goal)
-//! fires only what its stubborn sets hold (`stubborn`).
+//! A [`Model`] is any place/transition net. Place invariants reduce the bits of a marking (`cover`, `packing`); tables
+//! give the enabled transitions of a packed marking (`rows`, `candidates`), and firing is one addition. Firings that
+//! are redundant because of commuting transitions are left out, as with sleep sets (`swaps`). States are stored in a
+//! compact hash table (`lines`, `keys`), those of more than 64 bits after tree compression (`fold`). A search for a
+//! [`Goal`](super::Goal) fires only stubborn sets (`stubborn`).
 
 mod allowed;
 mod behaviour;

@@ -1,24 +1,25 @@
-//! What the engine explores: a place/transition net as numbers.
+//! Input of the engine: a place/transition net as numbers.
 
 use std::collections::BTreeMap;
 
 use crate::net::{Net, PlaceId};
 
-/// A place/transition net with an initial marking. Places are the positions in `initial`, transitions those in `transitions`.
+/// A place/transition net with an initial marking. Places are positions in `initial`, transitions are positions in
+/// `transitions`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Model {
-    /// Tokens of each place in the initial marking.
+    /// Number of tokens of each place in the initial marking.
     pub initial: Vec<u64>,
-    /// What each transition takes and puts.
+    /// Arcs of each transition.
     pub transitions: Vec<Arcs>,
 }
 
-/// The arcs of one transition. Several arcs to one place add up; arcs of weight 0 mean nothing.
+/// Arcs of one transition. Several arcs to one place add up; arcs of weight 0 are ignored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Arcs {
-    /// Places with the number of tokens that have to be there, and are taken.
+    /// Preset: places with the number of tokens that are required and taken.
     pub pre: Vec<(u32, u64)>,
-    /// Places with the number of tokens that are put.
+    /// Postset: places with the number of tokens that are put.
     pub post: Vec<(u32, u64)>,
 }
 
@@ -35,10 +36,10 @@ impl From<&Net> for Model {
     }
 }
 
-/// Numbers of tokens up to this one can be told apart from overflow, whatever is added to them.
+/// Upper bound (exclusive) on tokens and weights, so that sums of two do not overflow.
 pub(super) const MANY: u64 = 1 << 62;
 
-/// What a transition does at one place.
+/// Arcs of a transition at one place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Touch {
     pub(super) place: usize,
@@ -47,7 +48,7 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// Tokens gained, negative if some are lost.
+    /// Number of tokens gained; negative if tokens are lost.
     pub(super) fn change(self) -> i64 {
         self.post as i64 - self.pre as i64
     }
@@ -57,7 +58,7 @@ impl Touch {
 pub(super) type Rule = Vec<Touch>;
 
 impl Model {
-    /// The transitions as rules; the reason if the net cannot be explored at all.
+    /// Returns the transitions as rules, or the reason why the net cannot be explored.
     pub(super) fn rules(&self) -> Result<Vec<Rule>, String> {
         if self.initial.iter().any(|&tokens| tokens >= MANY) {
             return Err("an initial marking has 2^62 tokens or more on a place".to_owned());

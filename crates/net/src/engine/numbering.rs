@@ -1,5 +1,5 @@
-//! Numbers for the states kept: 0 for the initial one, and the others in the order of their distances from it. States that
-//! were not expanded are the last ones, on any number of threads: of those at one distance, the expanded ones come first.
+//! Numbering of the states kept: 0 for the initial one, the others by their distance from it. On any number of threads
+//! the states that were not expanded come last: of those at one distance, the expanded ones come first.
 
 use std::ops::Range;
 
@@ -7,29 +7,29 @@ use super::exploration::Exploration;
 use super::shard::Shard;
 use super::view::View;
 
-/// States of one shard that follow each other.
+/// Consecutively numbered states of one shard.
 pub(super) struct Stretch {
-    /// The number of the first.
+    /// Number of the first state.
     pub(super) first: u32,
     pub(super) shard: usize,
-    /// Their positions in the shard.
+    /// Positions of the states in the shard.
     pub(super) positions: Range<usize>,
 }
 
 impl Exploration {
-    /// How many states were kept.
+    /// Number of states kept.
     #[must_use]
     pub fn kept(&self) -> usize {
         self.shards.iter().map(Shard::len).sum()
     }
 
-    /// How many of the states kept were expanded, which are the first ones.
+    /// Number of states kept that were expanded; these come first.
     #[must_use]
     pub fn expanded(&self) -> usize {
         self.shards.iter().map(Shard::expanded).sum()
     }
 
-    /// All states in the order of their numbers.
+    /// Stretches of all states in the order of their numbers.
     pub(super) fn stretches(&self) -> &[Stretch] {
         self.stretches.get_or_init(|| self.numbered())
     }
@@ -42,7 +42,7 @@ impl Exploration {
             let length = positions.len() as u32;
             match stretches.last_mut() {
                 _ if length == 0 => {}
-                // Nets may be deep, and most levels small.
+                // A graph may have many levels, most of them small.
                 Some(last) if last.shard == shard && last.positions.end == positions.start => {
                     last.positions.end = positions.end;
                 }
@@ -62,17 +62,17 @@ impl Exploration {
         stretches
     }
 
-    /// Shows every state kept, by number.
+    /// Calls `visit` with every state kept, in the order of numbers.
     pub fn for_each_state(&self, visit: impl FnMut(u32, &View<'_>)) {
         self.for_states(0..self.kept() as u32, visit);
     }
 
-    /// Shows the states with these numbers.
+    /// Calls `visit` with the states of a range of numbers.
     pub fn for_states(&self, numbers: Range<u32>, mut visit: impl FnMut(u32, &View<'_>)) {
         self.visit(self.stretches(), numbers, |number, _, view, _| visit(number, view));
     }
 
-    /// The tokens of a state.
+    /// Marking of a state.
     #[must_use]
     pub fn marking(&self, number: u32) -> Option<Vec<u64>> {
         let mut marking = None;
@@ -82,7 +82,8 @@ impl Exploration {
         marking
     }
 
-    /// Shows the states with these numbers: each with its shard, and the numbers of the nodes of its fold.
+    /// Calls `visit` with the states of a range of numbers, each with its shard and the numbers of its compression-tree
+    /// nodes.
     pub(super) fn visit(
         &self,
         stretches: &[Stretch],

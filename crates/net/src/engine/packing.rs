@@ -1,40 +1,40 @@
-//! Where the digits of a marking stand in its words.
+//! Layout of the digits of a marking in words.
 //!
-//! Small digits share a chunk of up to eight bits, as the digits of one number do (their radices multiply to at most 256), so
-//! that a table can say of each value of a chunk what it means. A large digit has a chunk of its own. No chunk stands across
-//! the end of a word. Since no digit ever leaves its range, firing a transition is one wrapping addition to each word.
+//! Small digits share a chunk of up to eight bits as a mixed-radix number (their radices multiply to at most 256), so
+//! that there can be a table of all values of a chunk. A large digit has a chunk of its own. No chunk crosses the end
+//! of a word. Since no digit ever leaves its range, firing a transition is one wrapping addition to each word.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::cover::{Content, Digit, Rest};
 use super::model::Rule;
 
-/// Values a chunk of several digits can have.
+/// Maximum number of values of a chunk of several digits.
 const TABLE: u64 = 256;
 
-/// The layout of packed markings.
+/// Layout of packed markings.
 #[derive(Clone, Debug)]
 pub(super) struct Packing {
     pub(super) chunks: Vec<Chunk>,
-    /// Bits used of each word.
+    /// Number of bits used of each word.
     pub(super) bits: Vec<u32>,
-    /// The chunk of each place and the position of its digit there.
+    /// Chunk of each place, and the position of its digit there.
     places: Vec<(usize, usize)>,
 }
 
-/// Some bits of a word, which hold one or more digits.
+/// Consecutive bits of a word that hold one or more digits.
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     pub(super) word: usize,
     pub(super) shift: u32,
     pub(super) mask: u64,
     pub(super) values: u64,
-    /// The digits, each with what it is multiplied with in the chunk's value.
+    /// Digits, each with its factor in the chunk's value.
     pub(super) digits: Vec<(u64, Digit)>,
 }
 
 impl Chunk {
-    /// The value of the chunk in a packed marking.
+    /// Value of the chunk in a packed marking.
     #[inline]
     pub(super) fn get(&self, words: &[u64]) -> u64 {
         words[self.word] >> self.shift & self.mask
@@ -55,12 +55,12 @@ impl Chunk {
     }
 }
 
-/// Bins by the room left in them, of which there are few kinds.
+/// Bins for first-fit packing, by the room left in them.
 #[derive(Default)]
 struct FirstFit(BTreeMap<u64, BTreeSet<usize>>);
 
 impl FirstFit {
-    /// The first bin with at least this room, which is taken out.
+    /// Removes and returns the first bin with at least this room.
     fn take(&mut self, room: u64) -> Option<usize> {
         let firsts = self.0.range(room..).filter_map(|(&room, bins)| Some((*bins.first()?, room)));
         let (bin, room) = firsts.min()?;
@@ -118,22 +118,23 @@ impl Packing {
         Self { chunks, bits, places: at }
     }
 
-    /// How many words a marking has.
+    /// Number of words of a marking.
     pub(super) fn words(&self) -> usize {
         self.bits.len()
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub(super) fn places(&self) -> usize {
         self.places.len()
     }
 
-    /// The chunk of a place.
+    /// Chunk of a place.
     pub(super) fn chunk_of(&self, place: usize) -> usize {
         self.places[place].0
     }
 
-    /// The places that are all empty if a place is marked whose digit does not say so for certain.
+    /// Places that must all be empty for a place to be marked, if its digit alone does not decide it
+    /// ([`Rest::Elsewhere`]).
     pub(super) fn elsewhere(&self, place: usize) -> &[usize] {
         let (chunk, position) = self.places[place];
         match &self.chunks[chunk].digits[position].1.content {
@@ -142,7 +143,7 @@ impl Packing {
         }
     }
 
-    /// The words of a marking; nothing if it has none, because an invariant is against it or a digit too small.
+    /// Packs a marking; `None` if that is impossible, because it violates an invariant or a digit overflows.
     pub(super) fn pack(&self, marking: &[u64]) -> Option<Vec<u64>> {
         let mut words = vec![0; self.words()];
         for chunk in &self.chunks {
@@ -155,7 +156,7 @@ impl Packing {
         marking.iter().enumerate().all(|(place, &tokens)| self.tokens(&words, place) == tokens).then_some(words)
     }
 
-    /// The tokens of a place in a packed marking.
+    /// Number of tokens of a place in a packed marking.
     pub(super) fn tokens(&self, words: &[u64], place: usize) -> u64 {
         let (chunk, position) = self.places[place];
         let chunk = &self.chunks[chunk];
@@ -164,7 +165,7 @@ impl Packing {
         if self.elsewhere(place).iter().any(|&other| self.tokens(words, other) > 0) { 0 } else { tokens }
     }
 
-    /// The words that firing a transition changes, ascending, and what it adds to each, wrapping.
+    /// Words that firing a transition changes, ascending, and the number it adds to each, wrapping.
     pub(super) fn change(&self, rule: &Rule) -> Vec<(usize, u64)> {
         let mut digits: Vec<(usize, usize)> = rule.iter().map(|touch| self.places[touch.place]).collect();
         digits.sort_unstable();
@@ -186,7 +187,7 @@ impl Packing {
         changes
     }
 
-    /// Whether a digit without a proven bound can count `more` tokens than it does.
+    /// Whether a digit without a proven bound can count `more` further tokens.
     pub(super) fn has_room(&self, words: &[u64], place: usize, more: u64) -> bool {
         let (chunk, position) = self.places[place];
         let chunk = &self.chunks[chunk];
@@ -194,7 +195,7 @@ impl Packing {
         more < digit.radix - chunk.get(words) / weight % digit.radix
     }
 
-    /// The places whose digits may turn out to be too small.
+    /// Places whose digits may overflow, each with the largest value of its digit.
     pub(super) fn unproven(&self) -> impl Iterator<Item = (usize, u64)> {
         self.chunks.iter().flat_map(|chunk| &chunk.digits).filter_map(|(_, digit)| match digit.content {
             Content::Count { place, proven: false, .. } => Some((place, digit.radix - 1)),

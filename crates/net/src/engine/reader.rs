@@ -1,21 +1,21 @@
-//! The tokens of some places, state after state.
+//! Reading of the tokens of some places, state after state.
 
 use std::collections::BTreeMap;
 
 use super::exploration::Exploration;
 use super::view::View;
 
-/// Reads the tokens of some places. States that follow each other agree in most of them, so a chunk whose value is that of the
-/// state before is left alone.
+/// Reads the tokens of some places. Consecutive states agree on most of them, so chunks with the value of the previous
+/// state are skipped.
 pub struct Reader {
-    /// Chunks with the places to be read there, and the value last read.
+    /// Chunks with the places to read there, and the last value read.
     chunks: Vec<(usize, Vec<usize>, Option<u64>)>,
     /// Places whose tokens depend on other chunks too.
     others: Vec<usize>,
 }
 
 impl Exploration {
-    /// A reader of these places.
+    /// Returns a reader of some places.
     #[must_use]
     pub fn reader(&self, places: impl Iterator<Item = usize>) -> Reader {
         let packing = &self.machine.packing;
@@ -38,7 +38,7 @@ impl Exploration {
 }
 
 impl Reader {
-    /// Puts the tokens of the places into `tokens`, which has to be the same list each time.
+    /// Writes the tokens of the places into `tokens`, which must be the same list each time.
     pub fn read(&mut self, view: &View<'_>, tokens: &mut [u64]) {
         for (chunk, places, last) in &mut self.chunks {
             let value = Some(view.packing.chunks[*chunk].get(view.words));

@@ -1,32 +1,32 @@
-//! Tables that say which transitions a marking allows.
+//! Tables of the transitions that a marking allows.
 //!
-//! For each value of each chunk there is a row of bits, one for each transition: whether the places of that chunk allow it.
-//! What a marking allows is the conjunction of the rows of its chunks.
+//! For each value of each chunk there is a row of bits, one for each transition: whether the places of that chunk allow
+//! it. The set of transitions that a marking allows is the conjunction of the rows of its chunks.
 
 use super::conditions::{Conditions, TABLE};
 use super::packing::{Chunk, Packing};
 
-/// For each value of some chunks the transitions it allows.
+/// For each value of chunks the transitions it allows.
 pub(super) struct Rows {
     tables: Vec<Table>,
     rows: Vec<u64>,
-    /// A bit for each transition.
+    /// Row of all transitions.
     all: Vec<u64>,
 }
 
-/// The rows of a chunk.
+/// Rows of a chunk.
 struct Table {
     word: usize,
     shift: u32,
     mask: u64,
-    /// Where the first row begins.
+    /// Offset of the first row.
     start: usize,
-    /// The values at which a new row begins, except 0; nothing if there is a row for each value.
+    /// Values at which a new row begins, except 0; `None` if there is a row for each value.
     breaks: Option<Vec<u64>>,
 }
 
 impl Rows {
-    /// Rows have `width` words.
+    /// Builds the tables, with rows of `width` words.
     pub(super) fn of(packing: &Packing, conditions: &Conditions, width: usize) -> Self {
         let mut all = vec![0; width];
         (0..conditions.transitions).for_each(|transition| all[transition / 64] |= 1 << (transition % 64));
@@ -35,7 +35,7 @@ impl Rows {
         rows
     }
 
-    /// Adds the rows of a chunk, unless it always allows everything.
+    /// Adds the rows of a chunk, unless it has no conditions.
     fn add(&mut self, chunk: &Chunk, conditions: &Conditions) {
         if conditions.touching(chunk).is_empty() {
             return;
@@ -53,12 +53,12 @@ impl Rows {
         self.tables.push(Table { word: chunk.word, shift: chunk.shift, mask: chunk.mask, start, breaks });
     }
 
-    /// Whether every marking allows everything.
+    /// Whether every marking allows all transitions.
     pub(super) fn is_empty(&self) -> bool {
         self.tables.is_empty()
     }
 
-    /// Puts into `set` what the marking allows.
+    /// Writes the transitions that the marking allows into `set`.
     #[inline(always)]
     pub(super) fn put(&self, words: &[u64], set: &mut [u64]) {
         let Some((first, others)) = self.tables.split_first() else {
@@ -74,7 +74,7 @@ impl Rows {
         }
     }
 
-    /// Whether the marking allows all of a set.
+    /// Whether the marking allows all transitions of a set.
     #[inline]
     pub(super) fn allows(&self, words: &[u64], set: &[u64]) -> bool {
         self.tables.iter().all(|table| {
@@ -83,14 +83,14 @@ impl Rows {
         })
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.rows.capacity() as u64 * 8
     }
 }
 
 impl Table {
-    /// Where the row of a marking begins.
+    /// Offset of the row of a marking.
     #[inline(always)]
     fn row(&self, words: &[u64], width: usize) -> usize {
         let value = words[self.word] >> self.shift & self.mask;

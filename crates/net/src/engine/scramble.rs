@@ -1,23 +1,23 @@
-//! One-to-one scrambling of numbers of some bits, so that a part of the result can stand for the whole: in a hash table the
-//! place of an entry says as much about its key as the bits of the place, which need not be stored.
+//! Invertible hashing, for compact hash tables: the bits of the hash that are the position of an entry need not be
+//! stored.
 
-/// A permutation of the numbers of `bits` bits.
+/// Permutation of the numbers of `bits` bits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scramble {
     mask: u64,
     half: u32,
 }
 
-/// Odd, so that multiplication can be undone.
+/// Odd factors, so that multiplication is invertible.
 const FACTORS: [u64; 2] = [0x9E37_79B9_7F4A_7C15, 0xD6E8_FEB8_6659_FD93];
 
 impl Scramble {
-    /// For numbers of 1 to 64 bits.
+    /// Makes the permutation of numbers of 1 to 64 bits.
     pub(super) fn new(bits: u32) -> Self {
         Self { mask: u64::MAX >> (64 - bits), half: bits.div_ceil(2) }
     }
 
-    /// The high bits of the result depend on all bits of `key`.
+    /// Scrambles a key: the high bits of the result depend on all bits of `key`.
     #[inline(always)]
     pub(super) fn scramble(self, key: u64) -> u64 {
         let mut key = key;
@@ -28,7 +28,7 @@ impl Scramble {
         key
     }
 
-    /// The key that was scrambled.
+    /// Returns the key that was scrambled.
     pub(super) fn unscramble(self, scrambled: u64) -> u64 {
         let mut key = scrambled;
         for factor in FACTORS.iter().rev() {
@@ -39,8 +39,8 @@ impl Scramble {
     }
 }
 
-/// What to multiply with to undo a multiplication modulo 2^64, and so modulo any smaller power of two: Newton's iteration,
-/// which doubles the number of right bits each time.
+/// Multiplicative inverse modulo 2^64, and so modulo any smaller power of two, by Newton's iteration, which doubles the
+/// number of correct bits each time.
 const fn inverse(odd: u64) -> u64 {
     let mut inverse = odd;
     let mut round = 0;

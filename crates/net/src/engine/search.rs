@@ -1,7 +1,7 @@
-//! Breadth-first search of a net's states, distance by distance, on one or more threads.
+//! Breadth-first search of a net's states, level by level, on one or more threads.
 //!
-//! Each thread looks after a shard of the states and passes on what it finds of the others'. Small levels are expanded by one
-//! thread. Counts do not depend on the number of threads, and neither do distances.
+//! Each thread owns a shard of the states, by hash, and sends states of other shards to their owners. Small levels are
+//! expanded by one thread. Counts and distances do not depend on the number of threads.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, OnceLock};
@@ -17,30 +17,30 @@ use super::{Exploration, Figures};
 use crate::Goal;
 use petril_search::{Budget, Progress, Stop};
 
-/// How to explore.
+/// Options of an exploration.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// What the search may use.
+    /// Limits of the search.
     pub budget: Budget,
-    /// How many threads; 0 counts as 1.
+    /// Number of threads; 0 counts as 1.
     pub threads: usize,
-    /// Whether states are kept, so that firing sequences can be found: about 12 bytes more for each state.
+    /// Whether states are kept, so that firing sequences can be reconstructed: about 12 bytes more per state.
     pub keep: bool,
 }
 
 impl Default for Options {
-    /// One thread, the usual budget, nothing kept.
+    /// Options with one thread, the default budget, and no states kept.
     fn default() -> Self {
         Self { budget: Budget::default(), threads: 1, keep: false }
     }
 }
 
-/// Ends a search at the state that is looked for.
+/// Predicate that ends a search at the state looked for.
 pub trait Wanted: Sync {
-    /// Whether a state is the one looked for. Called once for each state expanded, by any thread.
+    /// Whether a state is the one looked for. Called once for each expanded state, by any thread.
     fn is(&self, view: &View<'_>) -> bool;
 
-    /// The search begins again, with the initial state. States seen before will not be kept.
+    /// Called when the search restarts from the initial state. The states seen before are discarded.
     fn forget(&self) {}
 }
 
@@ -50,20 +50,20 @@ impl<F: Fn(&View<'_>) -> bool + Sync> Wanted for F {
     }
 }
 
-/// States expanded before a thread looks at its letters and the budget.
+/// Number of states expanded before a thread reads its messages and checks the budget.
 const BLOCK: usize = 512;
 
-/// Levels of fewer states are expanded by one thread.
+/// Number of states below which a level is expanded by one thread.
 const NARROW: usize = 4096;
 
-/// Words of a letter before it is sent.
+/// Number of words at which a message is sent.
 const LETTER: usize = 2048;
 
-/// Explores a net until every state is found, the budget is used up, `watch` gives a reason to stop, or a state is found of
-/// which `wanted` is true. `watch` is called every few thousand states. States are tested in the order of their distances, so
-/// none is nearer than the one found; which of several equally near ones is found can depend on the number of threads.
+/// Explores a net until every state is found, the budget is used up, `watch` returns a reason to stop, or `wanted` is
+/// true of a state. `watch` is called every few thousand states. States are tested in the order of their distances, so
+/// the one found is a nearest one; which of several nearest ones is found can depend on the number of threads.
 ///
-/// Where no invariant limits the tokens of a place, few bits are tried first; if they do not suffice, the search begins again.
+/// Places without a bound by an invariant get few bits at first; if these overflow, the search restarts with more.
 pub fn explore(
     model: &Model,
     options: &Options,
@@ -79,9 +79,9 @@ pub fn explore(
     }
 }
 
-/// Explores a net until a marking with a property is found, or there can be none, or the budget or `watch` ends the search.
-/// Only transitions are fired that a nearest such marking may need, so the figures are those of a part of the states. The
-/// marking found is none the farther for that.
+/// Explores a net until a goal marking is found, there can be none, or the budget or `watch` ends the search. Only
+/// stubborn sets for the goal are fired, so the figures are those of a part of the states. The marking found is still a
+/// nearest one.
 pub fn explore_towards(
     model: &Model,
     options: &Options,
@@ -96,7 +96,7 @@ pub fn explore_towards(
     explore_within(model, &rules, &bounds, options, watch, Some(&|view: &View<'_>| goal.holds(view)), Some(&stubborn))
 }
 
-/// As [`explore`], where the rules and bounds of the model are known; towards a goal, if there are stubborn sets for one.
+/// Explores a net as [`explore`] does, with known rules and bounds; towards a goal, if there are stubborn sets for one.
 pub(super) fn explore_within(
     model: &Model,
     rules: &[Rule],
@@ -127,8 +127,8 @@ pub(super) fn explore_within(
     Exploration::refused("a place has 2^62 tokens or more".to_owned())
 }
 
-/// Raises the limits of the places that the firings enabled in a marking go beyond, after some rounds those of all places
-/// without a bound. Whether that is possible.
+/// Raises the limits of the places that overflow by the firings enabled in a marking, after some rounds those of all
+/// places without a bound. Returns whether that is possible.
 fn raise(limits: &mut [u64], machine: &Machine, rules: &[Rule], words: &[u64], round: usize) -> bool {
     let tokens = |place| machine.packing.tokens(words, place);
     let all = round >= 8;
@@ -183,7 +183,7 @@ fn finish(model: &Model, rules: &[Rule], machine: Machine, shards: Vec<Shard>, e
     Exploration { figures, stop, found, machine, shards, stretches: OnceLock::new() }
 }
 
-/// How a search ended.
+/// Outcome of a search.
 enum End {
     Stopped(Stop),
     Overflow(Vec<u64>),
@@ -196,7 +196,7 @@ struct Search<'a> {
     common: Common,
 }
 
-/// What threads tell each other.
+/// State shared by the threads.
 struct Common {
     budget: Budget,
     states: AtomicU64,
@@ -205,22 +205,22 @@ struct Common {
     stopping: AtomicBool,
     end: Mutex<Option<End>>,
     post: Vec<Post>,
-    /// How many shards still have states to expand at this distance.
+    /// Number of shards that still have states of this level to expand.
     busy: AtomicUsize,
 }
 
-/// Letters to a shard.
+/// Mailbox of a shard.
 #[derive(Default)]
 struct Post {
     letters: Mutex<Vec<Letter>>,
-    /// Something was sent, or nobody is busy any more.
+    /// Signals a new message, or that no shard is busy any more.
     news: Condvar,
 }
 
 impl Common {
     fn stop(&self, end: End) {
         if let Ok(mut place) = self.end.lock() {
-            // An overflow means that the figures are worth nothing.
+            // After an overflow the figures are meaningless.
             if place.is_none() || matches!(end, End::Overflow(_)) {
                 *place = Some(end);
             }
@@ -241,7 +241,7 @@ impl Common {
         }
     }
 
-    /// What was sent to a shard. If `patient`, waits until that is something, or nobody is busy.
+    /// Takes the messages to a shard. If `patient`, waits for a message, or until no shard is busy.
     fn letters(&self, to: usize, patient: bool) -> Vec<Letter> {
         let Ok(mut letters) = self.post[to].letters.lock() else { return Vec::new() };
         while patient && letters.is_empty() && self.busy.load(Ordering::Acquire) > 0 {
@@ -251,18 +251,18 @@ impl Common {
         std::mem::take(&mut letters)
     }
 
-    /// A shard has expanded all its states of a level, and sent all its letters.
+    /// Reports that a shard has expanded all its states of a level, and sent all its messages.
     fn rest(&self) {
         if self.busy.fetch_sub(1, Ordering::AcqRel) == 1 {
             for post in &self.post {
-                // Who is about to wait holds the lock, and would miss the news.
+                // A thread that is about to wait holds the lock, and would miss the signal.
                 drop(post.letters.lock());
                 post.news.notify_one();
             }
         }
     }
 
-    /// Adds what a shard has more than before, and looks at the budget.
+    /// Adds the growth of a shard to the totals, and checks the budget.
     fn account(&self, shard: &Shard, before: &mut Progress) {
         let now = Progress {
             states: shard.len() as u64,
@@ -295,7 +295,7 @@ impl Common {
     }
 }
 
-/// Called by the thread that began the search, before each block of states.
+/// Watcher, called by the thread that began the search before each block of states.
 type Watch<'a> = &'a mut (dyn FnMut(&Progress) -> Option<String> + 'a);
 
 impl<'a> Search<'a> {
@@ -322,7 +322,7 @@ impl<'a> Search<'a> {
         self.shards[super::shard::owner(&machine.initial, self.task.shards)].receive(&root);
         let mut accounts = vec![Progress::default(); self.shards.len()];
         loop {
-            // States may have been sent to it after it was looked at.
+            // A shard may have received states after its last check.
             if self.shards.iter().any(Shard::is_full) {
                 return End::Stopped(Stop::Bytes(self.common.budget.bytes));
             }
@@ -363,7 +363,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Expands all states of a level, each shard's on a thread of its own.
+    /// Expands all states of a level, each shard on a thread of its own.
     fn level_together(&mut self, accounts: &mut [Progress], watch: Watch<'_>) {
         let Self { task, shards, common } = self;
         let (task, common) = (&*task, &*common);
@@ -384,7 +384,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Expands a shard's states of a level, and enters what the other shards find, until all shards are done.
+/// Expands a shard's states of a level, and inserts states received from other shards, until all shards are done.
 fn level_of(
     number: usize,
     shard: &mut Shard,
@@ -403,7 +403,7 @@ fn level_of(
             common.rest();
             busy = false;
         }
-        // Whoever sees that nobody is busy sees all letters: they were sent before.
+        // A thread that sees that no shard is busy also sees all messages: they were sent before.
         let all_done = common.busy.load(Ordering::Acquire) == 0;
         let arrived = common.letters(number, !busy);
         arrived.iter().for_each(|letter| shard.receive(letter));
@@ -414,7 +414,7 @@ fn level_of(
     }
 }
 
-/// Expands a block of states and sends the letters that are full.
+/// Expands a block of states and sends full messages.
 fn expand(shard: &mut Shard, task: &Task<'_>, common: &Common, letters: &mut [Letter], account: &mut Progress) {
     match shard.expand(BLOCK, task, letters) {
         Some(Halt::Overflow(words)) => common.stop(End::Overflow(words)),

@@ -1,4 +1,4 @@
-//! The part of the states that one thread looks after.
+//! A shard: the states owned by one thread.
 
 use std::ops::Range;
 
@@ -10,60 +10,61 @@ use super::stubborn::{self, Stubborn};
 use super::tally::Seen;
 use super::view::View;
 
-/// States with what is known of them. Which shard has a state is a function of its marking.
+/// A shard of the states. The shard of a state is a hash of its marking.
 pub(super) struct Shard {
     number: usize,
     seen_keys: Keys,
-    /// For markings of several words.
+    /// Tree compression, for markings of several words.
     fold: Option<Fold>,
-    /// How many bits the left part of a folded key has, and the right part.
+    /// Numbers of bits of the left and of the right half of a compressed key.
     halves: (u32, u32),
-    /// Keys of states in the order in which they were found, the states of one distance after those of the one before. If
-    /// states are not kept, those that have been expanded are missing.
+    /// Keys of states in the order in which they were found, level by level. If states are not kept, expanded ones of
+    /// earlier levels are missing.
     states: Vec<u64>,
-    /// The transition by which each state was first reached; the number of transitions for the initial state.
+    /// Parent edges: the transition by which each state was first reached; the number of transitions for the initial
+    /// state.
     vias: Vec<u32>,
-    /// The first state not yet expanded, and the end of those at the same distance.
+    /// The first state not yet expanded, and (`end`) the end of its level.
     next: usize,
     end: usize,
     pub(super) levels: Vec<usize>,
     pub(super) counts: Counts,
     pub(super) seen: Seen,
-    /// Bytes this shard may use.
+    /// Memory that this shard may use, in bytes.
     share: u64,
-    /// Whether there was no room for a state, which is not there.
+    /// Whether there was no room for a state, which is missing.
     is_full: bool,
     scratch: Scratch,
 }
 
-/// What a shard has counted.
+/// Counts of a shard.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Counts {
     pub(super) expanded: u64,
     pub(super) transitions: u64,
     pub(super) deadlocks: u64,
-    /// Transitions fired: the others were known to lead nowhere new.
+    /// Number of transitions fired; the others were known to lead to no new state.
     pub(super) fired: u64,
-    /// The least of the nearest deadlocks, with its distance.
+    /// The smallest of the nearest deadlocks, with its distance.
     pub(super) deadlock: Option<(usize, Vec<u64>)>,
 }
 
-/// States found, on the way to another shard: their words and the transitions that lead to them.
+/// Message of states found to the shard that owns them: their words and the transitions that lead to them.
 #[derive(Default)]
 pub(super) struct Letter {
     pub(super) words: Vec<u64>,
     pub(super) vias: Vec<u32>,
 }
 
-/// Why the expansion of states ended early.
+/// Reason why the expansion of states ended early.
 pub(super) enum Halt {
-    /// This marking enables transitions that a digit is too small for.
+    /// A transition enabled in this marking makes a digit overflow.
     Overflow(Vec<u64>),
     /// The wanted marking was found.
     Found(Vec<u64>),
 }
 
-/// Memory used again and again.
+/// Reusable memory.
 #[derive(Default)]
 struct Scratch {
     keys: Vec<u64>,
@@ -76,23 +77,23 @@ struct Scratch {
     stubborn: stubborn::Scratch,
 }
 
-/// What a search does with each state.
+/// Parameters of a search.
 pub(super) struct Task<'a> {
     pub(super) machine: &'a Machine,
-    /// Ends the search at a state of which it is true.
+    /// Predicate that ends the search at a state.
     pub(super) wanted: Option<&'a dyn Wanted>,
-    /// What need not be fired on the way to a goal.
+    /// Stubborn sets for a goal, if there is one.
     pub(super) stubborn: Option<&'a Stubborn<'a>>,
     pub(super) shards: usize,
     /// Whether states are kept.
     pub(super) keep: bool,
 }
 
-/// States found before they are entered together.
+/// Number of states found before they are inserted together.
 const TOGETHER: usize = 1024;
 
 impl Shard {
-    /// No states yet; there may be as many as `share` bytes hold.
+    /// Makes an empty shard, which may use `share` bytes.
     pub(super) fn new(number: usize, machine: &Machine, share: u64) -> Self {
         let words = machine.packing.words();
         let fold = (words > 1).then(|| Fold::new(words));
@@ -124,12 +125,12 @@ impl Shard {
         }
     }
 
-    /// How many states there are.
+    /// Number of states.
     pub(super) fn len(&self) -> usize {
         self.seen_keys.len()
     }
 
-    /// How many of the kept states were expanded; they are the first ones.
+    /// Number of kept states that were expanded; these come first.
     pub(super) fn expanded(&self) -> usize {
         self.next
     }
@@ -139,18 +140,18 @@ impl Shard {
         self.is_full
     }
 
-    /// How many states of the present distance are not yet expanded.
+    /// Number of states of the current level that are not yet expanded.
     pub(super) fn waiting(&self) -> usize {
         self.end - self.next
     }
 
-    /// Bytes in use, at most since the beginning.
+    /// Memory in use in bytes, which is also the peak so far.
     pub(super) fn bytes(&self) -> u64 {
         let states = self.states.capacity() * 8 + self.vias.capacity() * 4;
         self.seen_keys.bytes() + states as u64 + self.fold.as_ref().map_or(0, Fold::bytes)
     }
 
-    /// Turns to the states found since the last call.
+    /// Begins the next level: the states found since the last call.
     pub(super) fn begin_level(&mut self, keep: bool) {
         if !keep {
             self.states.drain(..self.end);
@@ -161,7 +162,7 @@ impl Shard {
         self.end = self.states.len();
     }
 
-    /// Enters states found elsewhere.
+    /// Inserts states found by other shards.
     pub(super) fn receive(&mut self, letter: &Letter) {
         if let Some(fold) = &mut self.fold {
             let numbers = &mut self.scratch.numbers_after;
@@ -174,7 +175,7 @@ impl Shard {
         self.enter();
     }
 
-    /// Expands up to `most` states of the present distance.
+    /// Expands up to `most` states of the current level.
     pub(super) fn expand(&mut self, most: usize, task: &Task<'_>, letters: &mut [Letter]) -> Option<Halt> {
         let single = self.fold.is_none();
         match (task.machine.width, single) {
@@ -191,8 +192,8 @@ impl Shard {
         }
     }
 
-    /// `WIDTH` is the width of sets of transitions, or 0 if that is not known beforehand; `SINGLE` says that a marking is one
-    /// word and its own key.
+    /// Expands states. `WIDTH` is the width of sets of transitions, or 0 if unknown at compile time; `SINGLE` means
+    /// that a marking is one word and its own key.
     fn expand_with<const WIDTH: usize, const SINGLE: bool>(
         &mut self,
         most: usize,
@@ -298,7 +299,7 @@ impl Shard {
         self.scratch.vias.push(transition as u32);
     }
 
-    /// Enters the keys collected, and puts the new ones behind the states.
+    /// Inserts the collected keys, and appends the new ones to the states.
     fn enter(&mut self) {
         let beside = self.bytes() - self.seen_keys.bytes();
         self.seen_keys.grow_within(self.share.saturating_sub(beside));
@@ -343,18 +344,18 @@ impl Shard {
         vias.clear();
     }
 
-    /// The positions of the kept states at a distance.
+    /// Positions of the kept states at a distance.
     pub(super) fn level(&self, distance: usize) -> Range<usize> {
         let bound = |distance| self.levels.get(distance).copied().unwrap_or(self.end_of_level(distance));
         bound(distance)..bound(distance + 1)
     }
 
-    /// The end of the level before the one at `distance`, which was not begun.
+    /// End of the level before the one at `distance`, which was not begun.
     fn end_of_level(&self, distance: usize) -> usize {
         if distance == self.levels.len() { self.end } else { self.states.len() }
     }
 
-    /// The transition by which a state at a distance was first reached, if this shard has kept it.
+    /// Transition by which a state at a distance was first reached, if this shard has kept the state.
     pub(super) fn via(&self, words: &[u64], distance: usize) -> Option<u32> {
         let key = self.fold.as_ref().map_or(Some(words[0]), |fold| fold.find(words))?;
         let level = self.level(distance);
@@ -362,12 +363,12 @@ impl Shard {
         Some(self.vias[at])
     }
 
-    /// Room for the numbers of the nodes of a fold.
+    /// Memory for the numbers of the compression-tree nodes.
     pub(super) fn numbers(&self) -> Vec<u32> {
         vec![0; self.fold.as_ref().map_or(0, Fold::nodes)]
     }
 
-    /// The marking of a kept state.
+    /// Decodes the marking of a kept state.
     pub(super) fn unpack(&self, position: usize, words: &mut [u64], numbers: &mut [u32]) {
         match &self.fold {
             Some(fold) => fold.unfold(self.states[position], words, numbers),
@@ -375,18 +376,18 @@ impl Shard {
         }
     }
 
-    /// How many bits a key has.
+    /// Number of bits of a key.
     pub(super) fn bits(&self) -> u32 {
         self.seen_keys.bits()
     }
 
-    /// The key of a marking, if its parts were met before.
+    /// Finds the key of a marking, if all its parts have numbers.
     pub(super) fn key(&self, words: &[u64]) -> Option<u64> {
         self.fold.as_ref().map_or(Some(words[0]), |fold| fold.find(words).and_then(|key| self.narrowed(key)))
     }
 
-    /// The key of the marking after a firing in a marking of this shard whose nodes have these numbers, if its parts were met
-    /// before. `room` is memory used again and again.
+    /// Finds the key of the marking after a firing in a marking of this shard with these node numbers, if all its parts
+    /// have numbers. `room` is reusable memory.
     pub(super) fn key_after(
         &self,
         words: &[u64],
@@ -400,13 +401,14 @@ impl Shard {
         fold.find_after(words, changes, room).and_then(|key| self.narrowed(key))
     }
 
-    /// The pair without the bits between its parts, which may have become too large for it when there was no more room.
+    /// Narrow form of a key; `None` if a half has too many bits, which can happen when there was no more room to widen
+    /// keys.
     fn narrowed(&self, key: u64) -> Option<u64> {
         let narrow = narrow(key, self.halves);
         (wide(narrow, self.halves) == key).then_some(narrow)
     }
 
-    /// The key of a kept state.
+    /// Narrow key of a kept state.
     pub(super) fn narrow_key(&self, position: usize) -> u64 {
         let key = self.states[position];
         if self.fold.is_some() { narrow(key, self.halves) } else { key }
@@ -424,20 +426,20 @@ impl Counts {
     }
 }
 
-/// The shard that looks after a marking.
+/// Number of the shard that owns a marking.
 #[inline(always)]
 pub(super) fn owner(words: &[u64], shards: usize) -> usize {
     let mix = |hash: u64, word: &u64| (hash ^ word ^ word >> 31).wrapping_mul(0xA076_1D64_78BD_642F).rotate_left(23);
     (words.iter().fold(0, mix) >> 32) as usize % shards
 }
 
-/// A pair of numbers without the bits between them.
+/// Narrow form of a key: both halves without the unused bits between them.
 #[inline(always)]
 fn narrow(key: u64, (left, _): (u32, u32)) -> u64 {
     key & 0xFFFF_FFFF | key >> 32 << left
 }
 
-/// The pair again.
+/// Wide form of a narrow key: both halves with 32 bits each.
 #[inline(always)]
 fn wide(key: u64, (left, _): (u32, u32)) -> u64 {
     key & !(u64::MAX << left) | key >> left << 32

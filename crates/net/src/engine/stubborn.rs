@@ -1,39 +1,40 @@
-//! Transitions of which one must fire on every way to a goal, closed so that it may as well fire first (stubborn sets; Valmari
-//! 1989, for goals Schmidt 1999).
+//! Stubborn sets (Valmari 1989; for reachability goals Schmidt 1999): a closed set of transitions, one of which must
+//! fire on every path to the goal and may as well fire first.
 //!
-//! Let σ be a shortest way from a marking m to a goal that m does not have. The set computed here contains a transition of σ:
-//! without the transitions that `seed` adds, the goal stays false. Let t be the first one in σ, after w. Then t is enabled in
-//! m: otherwise the set contains everything that gives tokens to a place that t lacks, and w has nothing of the kind. And the
-//! places where t loses tokens are read by no transition of w, because all that reads them is in the set. So t can fire first,
-//! w after it, and the way is as long as before. What is enabled outside of the set need not fire in m, and neither the
-//! goal nor the distance to it is lost. If nothing in the set is enabled, the goal cannot be reached from m.
+//! Let σ be a shortest firing sequence from a marking m, where the goal is false, to the goal. The set computed here
+//! contains a transition of σ: without the transitions that `seed` adds, the goal stays false. Let t be the first of
+//! these in σ, after a prefix w. Then t is enabled in m: otherwise the set contains all transitions that add tokens to
+//! a place that t lacks, and none of these is in w. And no transition of w needs tokens of the places where t loses
+//! tokens, because all that do are in the set. So t can fire first, then w, and the sequence has the same length.
+//! Enabled transitions outside of the set need not fire in m, and neither the goal nor the distance to it is lost. If
+//! no transition of the set is enabled, the goal cannot be reached from m.
 
 use super::model::Rule;
 use super::packing::Packing;
 use super::view::View;
 use crate::Goal;
 
-/// The goal, and what transitions do to places.
+/// Stubborn sets for a goal.
 pub(super) struct Stubborn<'a> {
     goal: &'a Goal,
     rules: &'a [Rule],
-    /// For each place the transitions that need tokens there.
+    /// For each place the transitions that need its tokens.
     takers: Vec<Vec<u32>>,
-    /// For each place the transitions that leave more tokens there.
+    /// For each place the transitions that increase its tokens.
     givers: Vec<Vec<u32>>,
-    /// For each place the transitions that leave fewer tokens there.
+    /// For each place the transitions that decrease its tokens.
     losers: Vec<Vec<u32>>,
 }
 
-/// Memory used again and again.
+/// Reusable memory.
 #[derive(Default)]
 pub(super) struct Scratch {
-    /// The set, a bit for each transition.
+    /// The stubborn set, a bit for each transition.
     set: Vec<u64>,
     waiting: Vec<u32>,
-    /// How many transitions of the set are enabled.
+    /// Number of transitions of the set that are enabled.
     enabled: u32,
-    /// Which places' takers and givers the set contains.
+    /// Places whose takers and, in `given`, whose givers the set contains.
     taken: Vec<bool>,
     given: Vec<bool>,
     marks: Vec<u32>,
@@ -63,7 +64,7 @@ impl<'a> Stubborn<'a> {
         all
     }
 
-    /// Leaves in `set`, the transitions enabled in a marking, those to be fired there.
+    /// Restricts `set`, the transitions enabled in a marking, to those in the stubborn set.
     pub(super) fn restrict(&self, packing: &Packing, words: &[u64], set: &mut [u64], scratch: &mut Scratch) {
         let enabled: u32 = set.iter().map(|word| word.count_ones()).sum();
         scratch.begin(set.len(), self.takers.len());
@@ -73,7 +74,7 @@ impl<'a> Stubborn<'a> {
         }
     }
 
-    /// Collects the set, unless it has all that is enabled.
+    /// Computes the closure of the set, until it contains all enabled transitions.
     fn close(&self, marking: &View<'_>, enabled: u32, scratch: &mut Scratch) {
         self.seed(self.goal, marking, scratch);
         while let Some(transition) = scratch.waiting.pop() {
@@ -89,10 +90,10 @@ impl<'a> Stubborn<'a> {
         }
     }
 
-    /// Adds transitions of which one fires on every way to a goal that the marking does not have.
+    /// Adds transitions of which one fires on every path to a goal that is false in the marking.
     fn seed(&self, goal: &Goal, marking: &View<'_>, scratch: &mut Scratch) {
         match goal {
-            // Nothing fires in a marking that is not alive.
+            // No transition fires in a dead marking.
             Goal::Truth(_) | Goal::Alive => {}
             Goal::AtLeast { terms, .. } => {
                 let gains = |transition: u32| {
@@ -111,7 +112,7 @@ impl<'a> Stubborn<'a> {
             }
             Goal::Enabled(transition) => self.add_what_enables(*transition as usize, marking, scratch),
             Goal::Disabled(transition) => self.add_what_disables(*transition as usize, marking, scratch),
-            // Whatever is enabled has to be disabled.
+            // Every enabled transition has to be disabled.
             Goal::Dead => {
                 let cheapest = marking.enabled().min_by_key(|&transition| {
                     let needed = self.rules[transition].iter().filter(|touch| touch.pre > 0);
@@ -137,7 +138,7 @@ impl<'a> Stubborn<'a> {
         }
     }
 
-    /// For a transition that is not enabled, what gives tokens to a place that lacks them.
+    /// For a transition that is not enabled, adds the transitions that increase the tokens of a place that lacks some.
     fn add_what_enables(&self, transition: usize, marking: &View<'_>, scratch: &mut Scratch) {
         let lacking = |place: usize, pre| marking.tokens(place) < pre;
         let lacking = self.rules[transition].iter().filter(|touch| lacking(touch.place, touch.pre));
@@ -150,7 +151,7 @@ impl<'a> Stubborn<'a> {
         }
     }
 
-    /// For a transition that is enabled, what takes tokens from the places it needs.
+    /// For a transition that is enabled, adds the transitions that decrease the tokens of places it needs.
     fn add_what_disables(&self, transition: usize, marking: &View<'_>, scratch: &mut Scratch) {
         for touch in self.rules[transition].iter().filter(|touch| touch.pre > 0) {
             self.losers[touch.place].iter().for_each(|&transition| scratch.add(transition, marking));

@@ -1,42 +1,44 @@
-//! Firings that need not be tried because another order of the same firings leads to the same marking.
+//! Commuting transitions (as with sleep sets): firings that are redundant because another order of the same firings
+//! leads to the same marking.
 //!
-//! Let a state x be first reached by firing b in a state s. If whatever can fire b and then a can also fire a and then b, the
-//! successor of x by a is also the successor by b of the state y that a leads to from s. So if a stands before b in the order
-//! of the transitions, a need not be fired in x. Nothing is lost, and no state is found later than without this:
+//! Let a state x be first reached by firing b in a state s. If every marking that can fire b and then a can also fire a
+//! and then b, the successor of x by a is also the successor by b of the state y that a leads to from s. So if a comes
+//! before b in the order of the transitions, a need not be fired in x. No state is lost, and none is found later than
+//! without this:
 //!
-//! Suppose every state within distance d + 1 is found at its distance, and let z be at distance d + 2, by firing a in a state
-//! x at distance d + 1. If that firing is left out, x was reached by b from s at distance d, and y is within distance d + 1; it
-//! cannot be nearer than d + 1, as z is its successor by b, which stands behind a. If that firing is left out too, the argument
-//! goes on with a transition that stands further behind, so it ends with a firing that is not left out.
+//! Suppose every state within distance d + 1 is found at its distance, and let z be at distance d + 2, by firing a in a
+//! state x at distance d + 1. If that firing is left out, x was reached by b from s at distance d, and y is within
+//! distance d + 1. Its distance is exactly d + 1, since z is its successor by b, which comes after a. If that firing is
+//! left out too, the argument is repeated with a later transition, so it ends with a firing that is not left out.
 
 use super::model::{Rule, Touch};
 
-/// For each transition by which a state was reached, the transitions to be fired there.
+/// Commuting transitions: for each transition by which a state was reached, the transitions to be fired there.
 pub(super) enum Swaps {
-    /// A row of bits for each transition, and one more for states that were not reached by any.
+    /// A row of bits for each transition, and one more for states not reached by a transition.
     Rows(Vec<u64>),
-    /// For each transition, those before it that are to be fired, as words of the row of bits that are not 0; nothing if all
-    /// are, because they were too many to be examined.
+    /// For each transition, the earlier ones to be fired, as the non-zero words of the row of bits; `None` if all are
+    /// to be fired, because there were too many to examine.
     Lists(Vec<Option<Words>>),
 }
 
-/// The words of a row of bits that are not 0, each with its position.
+/// Non-zero words of a row of bits, each with its position.
 type Words = Box<[(u32, u64)]>;
 
-/// Words of all rows together beyond which there are lists: 2 MiB.
+/// Total size of all rows, in words, above which there are lists: 2 MiB.
 const ROWS: usize = 1 << 18;
 
-/// Pairs of transitions that share a place, examined at most: where all share one, there are too many.
+/// Maximum number of pairs of transitions sharing a place that are examined.
 const PAIRS: usize = 20_000_000;
 
 impl Swaps {
-    /// Sets of transitions have `width` words.
+    /// Finds the commuting transitions of a net; sets of transitions have `width` words.
     pub(super) fn of(rules: &[Rule], places: usize, width: usize) -> Self {
         let mut touching: Vec<Vec<usize>> = vec![Vec::new(); places];
         for (transition, rule) in rules.iter().enumerate() {
             rule.iter().for_each(|touch| touching[touch.place].push(transition));
         }
-        // Those that share no place with b can be swapped with it; of the others each is examined.
+        // Transitions that share no place with b commute with it; each of the others is examined.
         let mut left = PAIRS;
         let fired = |(b, rule): (usize, &Rule)| {
             left = left.saturating_sub(rule.iter().map(|touch| touching[touch.place].len()).sum());
@@ -61,7 +63,7 @@ impl Swaps {
         }
     }
 
-    /// Leaves in `set` what is to be fired in a state reached by `via`.
+    /// Restricts `set` to the transitions to be fired in a state reached by `via`.
     #[inline(always)]
     pub(super) fn restrict(&self, via: u32, set: &mut [u64]) {
         match self {
@@ -77,7 +79,7 @@ impl Swaps {
         }
     }
 
-    /// Bytes in use.
+    /// Memory in use, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         match self {
             Self::Rows(rows) => rows.capacity() as u64 * 8,
@@ -88,7 +90,7 @@ impl Swaps {
     }
 }
 
-/// Ascending numbers as the words of a set that are not 0.
+/// Set of ascending numbers as non-zero words with their positions.
 fn words(numbers: &[usize]) -> Box<[(u32, u64)]> {
     let same_word = numbers.chunk_by(|a, b| a / 64 == b / 64);
     let word = |numbers: &[usize]| {
@@ -104,7 +106,7 @@ fn restrict(list: &[(u32, u64)], via: u32, set: &mut [u64]) {
     for &(position, kept) in list {
         let position = position as usize;
         set[next..position.min(last)].fill(0);
-        // The word of `via` itself also has transitions behind it.
+        // The word of `via` also contains later transitions.
         set[position] &= if position == last { kept | u64::MAX << bit } else { kept };
         next = position + 1;
     }
@@ -116,7 +118,7 @@ fn restrict(list: &[(u32, u64)], via: u32, set: &mut [u64]) {
 
 /// Whether a marking that can fire `b` and then `a` can also fire `a` and then `b`.
 fn swappable(b: &Rule, a: &Rule) -> bool {
-    // What a place must have for one firing and then another.
+    // Tokens that a place needs for one firing followed by another.
     let needed = |first: Touch, second: Touch| (first.pre as i64).max(second.pre as i64 - first.change());
     let enough = |place: usize| {
         let at = |rule: &Rule| {

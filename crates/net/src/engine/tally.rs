@@ -1,46 +1,47 @@
-//! How many tokens there are at most, on each place and in a marking.
+//! Maximum numbers of tokens, of each place and of a marking.
 //!
-//! Only what tables cannot know beforehand is looked at in each state: the total if some transition changes it, and digits that
-//! count beyond 1. A place that never has more than one token has one if it has one initially or if a transition that puts one
-//! there was ever enabled.
+//! In each state only two things are recorded: the total, if some transition changes it, and digits that count above 1.
+//! A place that never has more than one token has one if it is marked initially or a transition that marks it was ever
+//! enabled.
 
 use super::cover::{Content, Rest};
 use super::model::Rule;
 use super::packing::{Chunk, Packing};
 
-/// What has to be looked at in each state.
+/// Parts of a state that are recorded.
 pub(super) struct Meter {
     sums: Vec<Sum>,
     counted: Vec<Counted>,
-    /// The total that no transition changes.
+    /// Total number of tokens, if no transition changes it.
     constant: Option<u64>,
 }
 
-/// What a chunk adds to the total.
+/// Contribution of a chunk to the total.
 struct Sum {
     chunk: Chunk,
-    /// For each value of the chunk, or, if empty, the value and this much more.
+    /// Contribution of each value of the chunk; if empty, the contribution is `base` plus the value.
     table: Vec<i64>,
     base: u64,
 }
 
-/// A chunk with digits that count beyond 1.
+/// A chunk with digits that count above 1.
 struct Counted {
     chunk: Chunk,
-    /// For each value of the chunk whether it occurred is noted from here on; if the chunk has too many values, its largest.
+    /// Offset in [`Seen::values`], where there is a flag for each value of the chunk that occurred; if the chunk has
+    /// too many values, the largest value that occurred.
     start: usize,
 }
 
-/// What was seen so far.
+/// Record of the states seen so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seen {
     total: u64,
     values: Vec<u64>,
-    /// The transitions that were ever enabled.
+    /// Transitions that were ever enabled.
     enabled: Vec<u64>,
 }
 
-/// Chunks with more values hold one digit.
+/// Number of values above which a chunk holds one digit.
 const TABLE: u64 = 256;
 
 impl Meter {
@@ -61,13 +62,13 @@ impl Meter {
         Self { sums, counted, constant }
     }
 
-    /// Nothing seen yet; sets of transitions have `width` words.
+    /// Makes an empty record; sets of transitions have `width` words.
     pub(super) fn nothing(&self, width: usize) -> Seen {
         let values = self.counted.last().map_or(0, |last| last.start + last.chunk.values.min(TABLE) as usize);
         Seen { total: self.constant.unwrap_or(0), values: vec![0; values], enabled: vec![0; width] }
     }
 
-    /// Notes a marking and the transitions it enables.
+    /// Records a marking and the transitions it enables.
     #[inline(always)]
     pub(super) fn note(&self, words: &[u64], enabled: &[u64], seen: &mut Seen) {
         for (seen, enabled) in seen.enabled.iter_mut().zip(enabled) {
@@ -87,7 +88,7 @@ impl Meter {
         }
     }
 
-    /// The largest number of tokens of each place, and in a marking.
+    /// Maximum number of tokens of each place, and of a marking.
     pub(super) fn maxima(&self, initial: &[u64], rules: &[Rule], seen: &Seen) -> (Vec<u64>, u64) {
         let mut maxima = initial.to_vec();
         for (transition, rule) in rules.iter().enumerate() {
@@ -113,7 +114,7 @@ impl Meter {
 }
 
 impl Seen {
-    /// What was seen by either.
+    /// Merges another record into this one.
     pub(super) fn merge(&mut self, other: &Self) {
         self.total = self.total.max(other.total);
         self.values.iter_mut().zip(&other.values).for_each(|(value, other)| *value = (*value).max(*other));
@@ -134,8 +135,8 @@ impl Sum {
     }
 }
 
-/// What each chunk adds to the total. A digit that may stand for a token elsewhere always counts one, so a token that is
-/// there is taken off once for each such digit.
+/// Contributions of all chunks to the total. A digit that may stand for a token elsewhere ([`Rest::Elsewhere`]) always
+/// counts one, so a token that is there is subtracted once for each such digit.
 fn sums(packing: &Packing) -> Vec<Sum> {
     let mut twice = vec![0_i64; packing.places()];
     let digits = packing.chunks.iter().flat_map(|chunk| &chunk.digits);

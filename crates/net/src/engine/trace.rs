@@ -1,16 +1,17 @@
-//! Firing sequences, found backwards: undoing the transition by which a state was first reached gives its predecessor.
+//! Reconstruction of firing sequences along parent edges: undoing the transition by which a state was first reached
+//! gives its predecessor.
 
 use super::exploration::Exploration;
 
 impl Exploration {
-    /// A shortest firing sequence from the initial marking to a marking. Nothing if the marking was not reached, or if states
-    /// were not kept.
+    /// Finds a shortest firing sequence from the initial marking to a marking. `None` if the marking was not reached,
+    /// or states were not kept.
     #[must_use]
     pub fn firings(&self, marking: &[u64]) -> Option<Vec<usize>> {
         let mut words = self.machine.packing.pack(marking)?;
         let levels = self.shards.first()?.levels.len();
         let via = |words: &[u64], distance| self.shards.iter().find_map(|shard| shard.via(words, distance));
-        // States of the last level may have been found without having been begun.
+        // States may have been found of a level that was not begun.
         let mut distance = (0..=levels).find(|&distance| via(&words, distance).is_some())?;
         let mut firings = Vec::with_capacity(distance);
         while distance > 0 {

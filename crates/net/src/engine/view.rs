@@ -1,8 +1,8 @@
-//! A state as a search shows it.
+//! A state as it is passed to callbacks of a search.
 
 use super::packing::Packing;
 
-/// A marking, and what it enables.
+/// A marking and its enabled transitions.
 pub struct View<'a> {
     pub(super) packing: &'a Packing,
     pub(super) words: &'a [u64],
@@ -10,13 +10,13 @@ pub struct View<'a> {
 }
 
 impl View<'_> {
-    /// How many tokens a place has.
+    /// Number of tokens on a place.
     #[must_use]
     pub fn tokens(&self, place: usize) -> u64 {
         self.packing.tokens(self.words, place)
     }
 
-    /// The tokens of all places.
+    /// Number of tokens on every place.
     #[must_use]
     pub fn marking(&self) -> Vec<u64> {
         (0..self.packing.places()).map(|place| self.tokens(place)).collect()
@@ -28,7 +28,7 @@ impl View<'_> {
         self.enabled[transition / 64] >> (transition % 64) & 1 == 1
     }
 
-    /// The transitions that are enabled, ascending.
+    /// The enabled transitions, ascending.
     pub fn enabled(&self) -> impl Iterator<Item = usize> {
         let bits = |word: u64| std::iter::successors(Some(word), |word| Some(word & word.wrapping_sub(1)));
         let transitions = move |(position, &word): (usize, &u64)| {

@@ -1,19 +1,19 @@
-//! The arcs of a net, one after another in one piece of memory: a net may have millions.
+//! The arcs of a net, stored contiguously, since a net may have millions.
 
 use super::{PlaceId, TransitionId};
 
-/// The arcs of a transition, where loops have become read arcs. In an ordinary net each has the weight 1.
+/// Arcs of a transition, with loops turned into read arcs. In an ordinary net every arc has weight 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arcs<'n> {
-    /// Preset without read places: tokens are taken from each.
+    /// Preset without the read places: firing takes tokens from each.
     pub consume: &'n [PlaceId],
-    /// Postset: tokens are put on each.
+    /// Postset without the read places: firing puts tokens on each.
     pub produce: &'n [PlaceId],
-    /// Places that must be marked and stay so.
+    /// Read places: they must be marked and stay marked.
     pub read: &'n [PlaceId],
 }
 
-/// The weights of a transition's arcs, list by list; empty where all are 1.
+/// Weights of a transition's arcs, list by list; empty where all are 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Weights<'n> {
     pub consume: &'n [u64],
@@ -22,19 +22,19 @@ pub(super) struct Weights<'n> {
 }
 
 impl<'n> Arcs<'n> {
-    /// The places that must be marked: those a token is taken from, then those that are read.
+    /// The preset: the places a token is taken from, then those that are read.
     pub fn preset(self) -> impl Iterator<Item = PlaceId> + Clone + 'n {
         self.consume.iter().chain(self.read).copied()
     }
 }
 
-/// The arcs of all transitions, by position.
+/// Arcs of all transitions, by position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct ArcTable {
     places: Vec<PlaceId>,
-    /// The weight of each arc; empty while all are 1.
+    /// Weight of each arc; empty while all are 1.
     weights: Vec<u64>,
-    /// Where the three lists of each transition end. Each begins where the one before it ends.
+    /// End offsets of each transition's three lists. A list begins where the one before it ends.
     ends: Vec<[u32; 3]>,
 }
 
@@ -51,7 +51,7 @@ impl ArcTable {
         TransitionId::at(self.ends.len() - 1)
     }
 
-    /// Adds a list, and says where it ends.
+    /// Adds a list, and returns the offset of its end.
     fn extend(&mut self, arcs: impl Iterator<Item = (PlaceId, u64)>) -> u32 {
         for (place, weight) in arcs {
             if weight != 1 && self.weights.is_empty() {
@@ -83,12 +83,12 @@ impl ArcTable {
         Weights { consume, produce, read }
     }
 
-    /// How many transitions there are.
+    /// Number of transitions.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// How many arcs there are, a read arc being one.
+    /// Number of arcs; a read arc counts as one.
     pub fn count(&self) -> usize {
         self.places.len()
     }

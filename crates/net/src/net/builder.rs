@@ -1,4 +1,4 @@
-//! Nets are built place by place and transition by transition, then never changed.
+//! Builder of nets: places and transitions are added one by one; a finished net is immutable.
 
 use std::collections::BTreeMap;
 
@@ -6,24 +6,24 @@ use super::{Arcs, Net, PlaceId, TransitionId};
 
 /// Builds a [`Net`].
 ///
-/// Names are taken as they are; whoever builds sees to it that they are unique among places and among transitions.
+/// Names are taken as they are. The caller keeps them unique among places and among transitions.
 #[derive(Clone, Debug)]
 pub struct Builder {
     net: Net,
-    /// What the transition in the making does with its places; kept for its memory.
+    /// Scratch memory: uses of places by the transition being added.
     uses: Vec<(PlaceId, Use)>,
 }
 
-/// What a transition does with a place, as bits.
+/// Uses of a place by a transition, as bits.
 type Use = u8;
 const CONSUME: Use = 1;
 const PRODUCE: Use = 2;
 const READ: Use = 4;
-/// The token is taken and put back.
+/// Self-loop: the token is taken and put back.
 const LOOP: Use = CONSUME | PRODUCE;
 
 impl Builder {
-    /// An empty net.
+    /// Begins with an empty net.
     pub fn new(name: impl Into<String>) -> Self {
         Self { net: Net::empty(name.into()), uses: Vec::new() }
     }
@@ -33,7 +33,7 @@ impl Builder {
         self.place_with(name, u64::from(marked))
     }
 
-    /// Adds a place with this many tokens.
+    /// Adds a place with `tokens` tokens.
     pub fn place_with(&mut self, name: impl AsRef<str>, tokens: u64) -> PlaceId {
         self.net.place_names.push(name.as_ref());
         self.net.tokens.push(tokens);
@@ -46,8 +46,8 @@ impl Builder {
         self.net.place_names.get(place.index())
     }
 
-    /// Adds a transition. A place it both takes from and puts to becomes a place it reads; a place it reads and also
-    /// takes from is only taken from, since that asks for the same token.
+    /// Adds a transition. A place in both preset and postset becomes a read place. A read place that is also in the
+    /// preset stays in the preset only, since both require the same token.
     pub fn transition(&mut self, name: impl AsRef<str>, arcs: Arcs<'_>) -> TransitionId {
         self.uses.clear();
         for (places, this) in [(arcs.consume, CONSUME), (arcs.produce, PRODUCE), (arcs.read, READ)] {
@@ -67,8 +67,8 @@ impl Builder {
         )
     }
 
-    /// Adds a transition with weights: what it takes and puts, and what must be there without being taken. Arcs that join
-    /// the same nodes add up.
+    /// Adds a transition with weighted arcs: tokens taken, tokens put, and tokens that must be there without being
+    /// taken. Weights of arcs that join the same nodes add up.
     pub fn weighted(
         &mut self,
         name: impl AsRef<str>,
@@ -96,14 +96,14 @@ impl Builder {
         self.net.arcs.push(list(0), list(1), list(2))
     }
 
-    /// The finished net.
+    /// Returns the finished net.
     #[must_use]
     pub fn build(self) -> Net {
         self.net
     }
 }
 
-/// The places of certain uses.
+/// The places whose uses satisfy a condition, each with weight 1.
 fn places(uses: &[(PlaceId, Use)], is_wanted: impl Fn(Use) -> bool) -> impl Iterator<Item = (PlaceId, u64)> {
     uses.iter().filter(move |(_, uses)| is_wanted(*uses)).map(|&(place, _)| (place, 1))
 }

@@ -1,4 +1,4 @@
-//! A net together with where its nodes stand in the file it was read from.
+//! A net together with the positions of its nodes in the file it was read from.
 
 use super::{Net, PlaceId, TransitionId, Units};
 use petril_base::diagnostic::Diagnostic;
@@ -9,38 +9,38 @@ use petril_base::source::Span;
 pub struct Located {
     /// The net.
     pub net: Net,
-    /// Where each place is defined, or first used where the format needs no definition.
+    /// Definition of each place in the text, or its first use where the format needs no definition.
     pub places: Vec<Span>,
-    /// Where each transition is defined.
+    /// Definition of each transition in the text.
     pub transitions: Vec<Span>,
-    /// The places that are used and not declared, where the format needs no declaration.
+    /// Places that are used and not declared, where the format needs no declaration.
     pub undeclared: Vec<PlaceId>,
-    /// The ids of places and transitions in the file, by position; none where the format knows names only.
+    /// Ids of places and transitions in the file, by position; none where the format has names only.
     pub ids: Option<(Vec<String>, Vec<String>)>,
-    /// The units of its places, if the file has them.
+    /// Units of the places (NUPN), if the file has them.
     pub units: Option<Units>,
-    /// What no safe net has, like weights, each with where it stands.
+    /// Errors for whatever a safe net cannot have, such as weights.
     pub not_safe: Vec<Diagnostic>,
-    /// What is wrong with the file and changes nothing about the net.
+    /// Faults of the file that do not change the net.
     pub warnings: Vec<Diagnostic>,
 }
 
 impl Located {
-    /// The net, if it can be safe.
+    /// Returns the net if it can be safe.
     ///
     /// # Errors
-    /// Weights and places with several tokens, each where it stands.
+    /// Weights and places with several tokens, each with its position.
     pub fn safe(self) -> Result<Self, Vec<Diagnostic>> {
         if self.not_safe.is_empty() { Ok(self) } else { Err(self.not_safe) }
     }
 
-    /// Where a place stands.
+    /// Position of a place in the text.
     #[must_use]
     pub fn place_span(&self, place: PlaceId) -> Span {
         self.places[place.index()]
     }
 
-    /// Where a transition stands.
+    /// Position of a transition in the text.
     #[must_use]
     pub fn transition_span(&self, transition: TransitionId) -> Span {
         self.transitions[transition.index()]

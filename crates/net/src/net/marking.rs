@@ -1,6 +1,6 @@
-//! Markings and the firing rule, as plainly as the definition has them.
+//! Markings of safe nets and the firing rule, exactly as defined.
 //!
-//! Searches use packed states of their own; this is what they are checked against.
+//! Searches use packed states of their own and are checked against these.
 
 use fixedbitset::FixedBitSet;
 
@@ -11,13 +11,13 @@ use super::{Net, PlaceId, TransitionId};
 pub struct Marking(FixedBitSet);
 
 impl Marking {
-    /// Whether a place has its token.
+    /// Whether a place is marked.
     #[must_use]
     pub fn is_marked(&self, place: PlaceId) -> bool {
         self.0.contains(place.index())
     }
 
-    /// Gives a place its token, or takes it.
+    /// Marks a place, or removes its token.
     pub fn put(&mut self, place: PlaceId, is_marked: bool) {
         self.0.set(place.index(), is_marked);
     }
@@ -28,12 +28,12 @@ impl Marking {
     }
 }
 
-/// A firing would put a second token on this place: the net is not safe.
+/// Error: firing would put a second token on the place, so the net is not safe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotSafe(pub PlaceId);
 
 impl Net {
-    /// The marking the net begins with.
+    /// The initial marking.
     #[must_use]
     pub fn initial_marking(&self) -> Marking {
         let mut marking = FixedBitSet::with_capacity(self.places().len());
@@ -43,7 +43,7 @@ impl Net {
         Marking(marking)
     }
 
-    /// Whether a transition is enabled: its preset and the places it reads are marked.
+    /// Whether a transition is enabled: all places of its preset, read places included, are marked.
     #[must_use]
     pub fn is_enabled(&self, marking: &Marking, transition: TransitionId) -> bool {
         self.arcs(transition).preset().all(|place| marking.is_marked(place))

@@ -1,9 +1,9 @@
-//! Place/transition nets, and their token game.
+//! Place/transition nets and their token game.
 //!
 //! A net is a tuple (P, T, F, W, m₀): places, transitions, arcs, their weights, and an initial marking. A transition is
-//! enabled if each place of its preset has as many tokens as the arc from it weighs; firing takes them, and puts as many on
-//! each place of the postset as the arc to it weighs. What a transition takes from a place and puts back at once is kept as
-//! a read arc, which under interleaving is the same.
+//! enabled if each place of its preset has at least as many tokens as the weight of the arc from it; firing takes
+//! these, and puts on each place of the postset as many as the weight of the arc to it. Self-loops, by which a
+//! transition takes tokens and puts them back, are stored as read arcs, which are equivalent under interleaving.
 //!
 //! The nets of programs are *safe*: every arc has weight 1, and no reachable marking has two tokens on a place. For these
 //! there is [`Marking`]; for any net, [`Tokens`].
@@ -45,14 +45,14 @@ pub use petril_base::{PlaceId, TransitionId};
 /// A place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place<'n> {
-    /// Its name, unique in the net.
+    /// Name, unique in the net.
     pub name: &'n str,
-    /// The tokens it has at the beginning.
+    /// Number of tokens in the initial marking.
     pub tokens: u64,
 }
 
 impl Place<'_> {
-    /// Whether it has a token at the beginning.
+    /// Whether the place is marked initially.
     #[must_use]
     pub fn is_marked(&self) -> bool {
         self.tokens > 0
@@ -62,13 +62,13 @@ impl Place<'_> {
 /// A transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition<'n> {
-    /// Its name, unique in the net.
+    /// Name, unique in the net.
     pub name: &'n str,
-    /// Its arcs; see [`Net::arcs`].
+    /// Arcs; see [`Net::arcs`].
     pub arcs: Arcs<'n>,
 }
 
-/// A net. Made by [`Builder`] and never changed.
+/// An immutable place/transition net, made by [`Builder`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Net {
     name: String,
@@ -79,7 +79,7 @@ pub struct Net {
 }
 
 impl Net {
-    /// The net with all names as people read them. Two nodes may have the same name then.
+    /// Returns the net with all names made printable. Two nodes may then have the same name.
     #[must_use]
     pub fn into_printable(self) -> Self {
         let name = printable::line(&self.name);
@@ -118,64 +118,64 @@ impl Net {
         (0..self.arcs.len()).map(TransitionId::at)
     }
 
-    /// A place.
+    /// The place with an id.
     #[must_use]
     pub fn place(&self, id: PlaceId) -> Place<'_> {
         Place { name: self.place_names.get(id.index()), tokens: self.tokens[id.index()] }
     }
 
-    /// A transition.
+    /// The transition with an id.
     #[must_use]
     pub fn transition(&self, id: TransitionId) -> Transition<'_> {
         Transition { name: self.transition_names.get(id.index()), arcs: self.arcs(id) }
     }
 
-    /// Preset and postset of a transition, each list in ascending order. No place is taken from and put to. With weights, a
-    /// place may be read and taken from: it needs as many tokens as both weigh together. One that is read and put to has more
-    /// tokens afterwards.
+    /// Preset and postset of a transition, each list in ascending order. No place is in both `consume` and `produce`.
+    /// With weights, a place may be in both `read` and `consume`: enabling then requires the sum of both weights. A
+    /// place in both `read` and `produce` has more tokens after firing.
     #[must_use]
     pub fn arcs(&self, id: TransitionId) -> Arcs<'_> {
         self.arcs.get(id)
     }
 
-    /// What a transition takes and does not put back: places, ascending, with how many tokens.
+    /// Tokens that a transition takes and does not put back: places, ascending, each with the number of tokens.
     pub fn taken(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
         weighted::list(self.arcs(id).consume, self.arcs.weights(id).consume)
     }
 
-    /// What a transition puts besides what it puts back.
+    /// Tokens that a transition puts in addition to those it puts back.
     pub fn put(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
         weighted::list(self.arcs(id).produce, self.arcs.weights(id).produce)
     }
 
-    /// What a transition needs besides what it takes: it puts it back.
+    /// Tokens that a transition needs in addition to those it takes, and puts back.
     pub fn read(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
         weighted::list(self.arcs(id).read, self.arcs.weights(id).read)
     }
 
-    /// The arcs to a transition: the places it needs tokens on, ascending, with how many.
+    /// Preset: the places that need tokens, ascending, each with the arc's weight.
     pub fn pre(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
         weighted::merge(self.taken(id), self.read(id))
     }
 
-    /// The arcs from a transition: the places it puts tokens on, ascending, with how many.
+    /// Postset: the places that receive tokens, ascending, each with the arc's weight.
     pub fn post(&self, id: TransitionId) -> impl Iterator<Item = (PlaceId, u64)> + Clone {
         weighted::merge(self.put(id), self.read(id))
     }
 
-    /// The place of a name.
+    /// Finds a place by name.
     #[must_use]
     pub fn find_place(&self, name: &str) -> Option<PlaceId> {
         self.places().position(|place| place.name == name).map(PlaceId::at)
     }
 
-    /// The transition of a name.
+    /// Finds a transition by name.
     #[must_use]
     pub fn find_transition(&self, name: &str) -> Option<TransitionId> {
         self.transitions().position(|transition| transition.name == name).map(TransitionId::at)
     }
 
-    /// How many arcs the net has where every read arc is written as a loop of two.
+    /// Number of arcs when every read arc is written as a loop of two arcs.
     #[must_use]
     pub fn arc_count(&self) -> usize {
         let twice = |id: TransitionId| {
@@ -185,7 +185,7 @@ impl Net {
         self.arcs.count() + self.read_arc_count() - self.transition_ids().map(twice).sum::<usize>()
     }
 
-    /// How many read arcs the net has.
+    /// Number of read arcs.
     #[must_use]
     pub fn read_arc_count(&self) -> usize {
         self.transition_ids().map(|id| self.arcs(id).read.len()).sum()

@@ -1,12 +1,12 @@
-//! Names, one after another in one text: a net may have millions.
+//! The names of nodes, stored in one string, since a net may have millions.
 
 use petril_base::printable::{is_printable, line};
 
-/// The names of nodes, by position.
+/// Names of nodes, by position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Names {
     text: String,
-    /// Where each name ends. It begins where the one before it ends.
+    /// End offset of each name. A name begins where the one before it ends.
     ends: Vec<usize>,
 }
 
@@ -16,7 +16,7 @@ impl Names {
         self.ends.push(self.text.len());
     }
 
-    /// The names as people read them.
+    /// Returns the names made printable.
     pub fn into_printable(self) -> Self {
         if self.text.chars().all(is_printable) {
             return self;

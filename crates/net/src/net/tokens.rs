@@ -1,39 +1,39 @@
-//! Markings of any net and the firing rule, as plainly as the definition has them.
+//! Markings of any place/transition net and the firing rule, exactly as defined.
 //!
-//! Searches use packed states of their own; this is what they are checked against.
+//! Searches use packed states of their own and are checked against these.
 
 use super::{Net, PlaceId, TransitionId};
 
-/// A marking: the tokens of each place.
+/// A marking: the number of tokens on each place.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Tokens(Vec<u64>);
 
 impl Tokens {
-    /// How many tokens a place has.
+    /// Number of tokens on a place.
     #[must_use]
     pub fn on(&self, place: PlaceId) -> u64 {
         self.0[place.index()]
     }
 
-    /// The tokens of all places, by position.
+    /// Number of tokens on every place, by position.
     #[must_use]
     pub fn as_slice(&self) -> &[u64] {
         &self.0
     }
 }
 
-/// A firing would put more tokens on this place than can be counted.
+/// Error: firing would put more than 2^64 - 1 tokens on the place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overflow(pub PlaceId);
 
 impl Net {
-    /// The tokens the net begins with.
+    /// The initial marking.
     #[must_use]
     pub fn initial_tokens(&self) -> Tokens {
         Tokens(self.places().map(|place| place.tokens).collect())
     }
 
-    /// Whether each place of a transition's preset has as many tokens as are needed.
+    /// Whether a transition is enabled: each place of its preset has at least as many tokens as the arc's weight.
     #[must_use]
     pub fn has_concession(&self, tokens: &Tokens, transition: TransitionId) -> bool {
         self.pre(transition).all(|(place, weight)| tokens.on(place) >= weight)

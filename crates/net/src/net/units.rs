@@ -1,4 +1,4 @@
-//! Nested units: which places are never marked together.
+//! Nested units: sets of places of which no two are ever marked together.
 
 use super::PlaceId;
 
@@ -9,27 +9,27 @@ use super::PlaceId;
 pub struct Units {
     /// The units.
     pub units: Vec<Unit>,
-    /// The position of the unit that all others are in.
+    /// Position of the root, the unit that contains all others.
     pub root: usize,
-    /// Whether it is known that of a unit's places one at most is marked, and none while a place of a unit within it is, in
-    /// every reachable marking, with one token. If not, nobody knows.
+    /// Whether the net is known to be unit-safe: in every reachable marking at most one place of a unit is marked, with
+    /// one token, and none while a place of a unit within it is marked. `false` means unknown.
     pub safe: bool,
 }
 
-/// A unit.
+/// A unit of a nested-unit Petri net.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// What it is called, unique in its net.
+    /// Identifier, unique in the net.
     pub id: String,
-    /// The places that are in it and in no unit within it.
+    /// Local places: those of this unit and of no unit within it.
     pub places: Vec<PlaceId>,
-    /// The units directly within it, by position.
+    /// Direct subunits, by position.
     pub subunits: Vec<usize>,
 }
 
 impl Units {
-    /// Units side by side, `u1`, `u2` and so on, in a root `u0` that has no places of its own. Those without places are left
-    /// out.
+    /// Returns units side by side, `u1`, `u2` and so on, in a root `u0` without places of its own. Units without places
+    /// are left out.
     #[must_use]
     pub fn flat(units: impl IntoIterator<Item = Vec<PlaceId>>, safe: bool) -> Self {
         let units = [Vec::new()].into_iter().chain(units.into_iter().filter(|places| !places.is_empty()));

@@ -2,12 +2,12 @@
 
 use super::PlaceId;
 
-/// The arcs of a list, ascending, with their weights; all are 1 if there are none.
+/// The places of a list, ascending, each with its weight; `weights` is empty if all are 1.
 pub fn list<'n>(places: &'n [PlaceId], weights: &'n [u64]) -> impl Iterator<Item = (PlaceId, u64)> + Clone + 'n {
     places.iter().enumerate().map(|(i, &place)| (place, weights.get(i).copied().unwrap_or(1)))
 }
 
-/// Two ascending lists as one, where what both have is added.
+/// Merges two ascending lists, and adds the weights of a place in both.
 pub fn merge<I, J>(left: I, right: J) -> impl Iterator<Item = (PlaceId, u64)> + Clone
 where
     I: Iterator<Item = (PlaceId, u64)> + Clone,

@@ -1,33 +1,33 @@
-//! Classes of nets, by the shape of their arcs.
+//! Structural classes of nets.
 
 use std::collections::BTreeMap;
 
 use super::flow::Flow;
 use crate::net::Net;
 
-/// To which classes a net belongs. A read arc counts as two arcs, as if its tokens were taken and put back.
+/// Structural classes of a net. A read arc counts as a self-loop of two arcs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Class {
-    /// Every arc has weight 1.
+    /// Whether every arc has weight 1.
     pub ordinary: bool,
-    /// Every arc to a transition has weight 1.
+    /// Whether every arc from a place to a transition has weight 1.
     pub single_inputs: bool,
-    /// No transition puts tokens on a place that it needs tokens of.
+    /// Whether no place is in both the preset and the postset of a transition (no self-loops).
     pub pure: bool,
-    /// Ordinary, and every transition has one input and one output: tokens wander.
+    /// Whether the net is ordinary, and every transition has exactly one input and one output place.
     pub state_machine: bool,
-    /// Ordinary, and every place has one producer and one consumer: no choice.
+    /// Whether the net is ordinary, and every place has exactly one producer and one consumer: no choice.
     pub marked_graph: bool,
-    /// Ordinary, and of two transitions that share an input neither has another one.
+    /// Whether the net is ordinary, and transitions that share an input place have no other one.
     pub free_choice: bool,
-    /// Ordinary, and transitions that share an input have all inputs in common.
+    /// Whether the net is ordinary, and transitions that share an input place have equal presets.
     pub extended_free_choice: bool,
-    /// Every firing leaves the number of tokens as it is.
+    /// Whether every firing keeps the total number of tokens.
     pub keeps_tokens: bool,
 }
 
 impl Class {
-    /// The classes of a net.
+    /// Determines the classes of a net.
     #[must_use]
     pub fn of(net: &Net, flow: &Flow) -> Self {
         let single_inputs = net.transition_ids().all(|id| net.pre(id).all(|(_, weight)| weight == 1));

@@ -1,8 +1,9 @@
-//! What siphons and traps say about behaviour: Commoner's property and what follows from it.
+//! Commoner's property: deadlock-freedom and liveness from siphons and traps.
 //!
-//! If every siphon holds a trap that is marked initially, no siphon ever becomes empty. Where transitions need one token of each
-//! input, a deadlock leaves an input of every transition empty, and these places are a siphon: so there is no deadlock. In ordinary
-//! extended free choice nets the property holds if and only if the net is live (Commoner's theorem, Hack 1972).
+//! If every siphon contains a trap that is marked initially, no siphon ever becomes empty. If transitions need one
+//! token of each input, then in a deadlock every transition has an empty input place, and the empty places form a
+//! siphon: so there is no deadlock. Ordinary extended free-choice nets are live if and only if they have the property
+//! (Commoner's theorem, Hack 1972).
 
 use fixedbitset::FixedBitSet;
 
@@ -12,19 +13,19 @@ use super::largest::{largest_siphon, largest_trap};
 use super::siphons::Siphons;
 use crate::net::{Net, PlaceId, TransitionId};
 
-/// Whether every siphon holds a trap that is marked initially.
+/// Commoner's property: every siphon contains a trap that is marked initially.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Commoner {
-    /// Every one does.
+    /// The property holds.
     Holds,
-    /// This minimal siphon does not.
+    /// The property fails: this minimal siphon contains no initially marked trap.
     Fails(Vec<PlaceId>),
-    /// Not all minimal siphons are known; those that are do.
+    /// Unknown: all minimal siphons found contain a marked trap, but there may be more siphons.
     Unknown,
 }
 
-/// Whether each of the minimal siphons of a net holds a marked trap. Places without arcs are left out: they are siphons that
-/// nothing depends on.
+/// Checks whether every minimal siphon of a net contains an initially marked trap. Places without arcs are left out:
+/// they are siphons on which nothing depends.
 #[must_use]
 pub fn commoner(net: &Net, flow: &Flow, siphons: &Siphons) -> Commoner {
     let is_isolated = |siphon: &[PlaceId]| siphon.iter().all(|place| flow.consumers[place.index()].is_empty());
@@ -38,7 +39,7 @@ pub fn commoner(net: &Net, flow: &Flow, siphons: &Siphons) -> Commoner {
     if siphons.all { Commoner::Holds } else { Commoner::Unknown }
 }
 
-/// The transitions that can never fire since they need tokens of a siphon that is empty initially: the largest there is.
+/// The transitions that can never fire since they need tokens of the largest siphon that is empty initially.
 #[must_use]
 pub fn starved(net: &Net, flow: &Flow) -> Vec<TransitionId> {
     let mut empty = FixedBitSet::with_capacity(flow.places());
@@ -49,13 +50,13 @@ pub fn starved(net: &Net, flow: &Flow) -> Vec<TransitionId> {
 }
 
 impl Commoner {
-    /// Whether it follows that no reachable marking is a deadlock. Nothing follows from the property's failing.
+    /// Whether the property implies that no reachable marking is a deadlock. If it fails, nothing follows.
     #[must_use]
     pub fn excludes_deadlock(&self, class: &Class, flow: &Flow) -> bool {
         *self == Self::Holds && class.single_inputs && flow.transitions() > 0
     }
 
-    /// Whether it follows that the net is live, or that it is not.
+    /// Whether the net is live, if the property decides it (extended free-choice nets only).
     #[must_use]
     pub fn decides_liveness(&self, class: &Class) -> Option<bool> {
         match self {

@@ -1,21 +1,21 @@
-//! How a net hangs together: components of its graph of places and transitions.
+//! Connected components of a net as a graph of places and transitions.
 
 use petgraph::algo::{connected_components, kosaraju_scc};
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::flow::Flow;
 
-/// How many components a net has. A net without nodes has none.
+/// Numbers of connected components of a net; 0 for a net without nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Components {
-    /// Parts with no arc between them.
+    /// Number of weakly connected components.
     pub weakly: usize,
-    /// Largest parts in which arcs lead from each node to each other one.
+    /// Number of strongly connected components.
     pub strongly: usize,
 }
 
 impl Components {
-    /// The components of a net.
+    /// Counts the components of a net.
     #[must_use]
     pub fn of(flow: &Flow) -> Self {
         let (places, transitions) = (flow.places(), flow.transitions());

@@ -1,26 +1,26 @@
-//! The flow relation: which places lie before and behind transitions, weights left aside. A place that is read lies on both
-//! sides, as if its tokens were taken and put back.
+//! The flow relation: presets and postsets of places and transitions, without weights. A read place is in both the
+//! preset and the postset of its transition.
 
 use crate::net::{Net, PlaceId, TransitionId};
 use petril_base::Rows;
 
-/// The places before and behind each transition, ascending, and the transitions before and behind each place.
+/// Presets and postsets of all transitions and of all places, each ascending.
 #[derive(Clone, Debug)]
 pub struct Flow {
-    /// For each transition the places it needs tokens on.
+    /// Preset of each transition.
     pub(super) inputs: Rows<u32>,
-    /// For each transition the places it puts tokens on.
+    /// Postset of each transition.
     pub(super) outputs: Rows<u32>,
-    /// For each place the transitions that put tokens on it.
+    /// Preset of each place: the transitions that put tokens on it.
     pub(super) producers: Rows<u32>,
-    /// For each place the transitions that need its tokens.
+    /// Postset of each place: the transitions that need its tokens.
     pub(super) consumers: Rows<u32>,
     places: usize,
     transitions: usize,
 }
 
 impl Flow {
-    /// The flow relation of a net.
+    /// Returns the flow relation of a net.
     #[must_use]
     pub fn of(net: &Net) -> Self {
         let (places, transitions) = (net.places().len(), net.transitions().len());
@@ -38,7 +38,7 @@ impl Flow {
         }
     }
 
-    /// The same with all arcs turned round: siphons become traps.
+    /// Returns the flow relation with all arcs reversed: siphons become traps.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self {

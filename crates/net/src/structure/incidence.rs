@@ -1,9 +1,9 @@
-//! What firing changes: the incidence matrix of a net, without its zeros.
+//! The incidence matrix of a net, as a sparse matrix.
 
 use crate::net::{Net, PlaceId, TransitionId};
 use petril_base::Rows;
 
-/// The incidence matrix, by rows and by columns. Read arcs change nothing, so they are not in it.
+/// The incidence matrix, by rows and by columns. Read arcs change nothing and have no entries.
 #[derive(Clone, Debug)]
 pub struct Incidence {
     of_places: Rows<(u32, i128)>,
@@ -11,7 +11,7 @@ pub struct Incidence {
 }
 
 impl Incidence {
-    /// The matrix of a net.
+    /// Returns the incidence matrix of a net.
     #[must_use]
     pub fn of(net: &Net) -> Self {
         let change = |id: TransitionId| {
@@ -22,20 +22,21 @@ impl Incidence {
         let entries = net.transition_ids().flat_map(change);
         let of_places =
             Rows::group(net.places().len(), entries.clone().map(|(place, id, change)| (place, (id as u32, change))));
-        // From places in ascending order, so that each list is ascending.
+        // Built from places in ascending order, so that each list is ascending.
         let by_place = (0..net.places().len())
             .flat_map(|place| of_places[place].iter().map(move |&(id, change)| (id as usize, (place as u32, change))));
         let of_transitions = Rows::group(net.transitions().len(), by_place);
         Self { of_places, of_transitions }
     }
 
-    /// The transitions that change a place, ascending, with the tokens it gains by each, negative if it loses some.
+    /// Row of a place: the transitions that change it, ascending, with the tokens gained (negative: lost) by each
+    /// firing.
     #[must_use]
     pub fn of_place(&self, place: PlaceId) -> &[(u32, i128)] {
         &self.of_places[place.index()]
     }
 
-    /// The places that a transition changes, ascending, with the tokens they gain, negative if they lose some.
+    /// Column of a transition: the places that it changes, ascending, with the tokens they gain (negative: lose).
     #[must_use]
     pub fn of_transition(&self, transition: TransitionId) -> &[(u32, i128)] {
         &self.of_transitions[transition.index()]

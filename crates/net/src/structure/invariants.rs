@@ -1,4 +1,5 @@
-//! Invariants: sums of places that no firing changes, and firings that together change nothing.
+//! Place invariants (weighted sums of tokens that no firing changes) and transition invariants (firings that together
+//! change nothing).
 
 use super::incidence::Incidence;
 use super::kernel::{Kernel, kernel};
@@ -8,31 +9,31 @@ use crate::net::{Net, PlaceId, TransitionId};
 /// A place invariant: places with weights, ascending, whose weighted sum of tokens is `tokens` in every reachable marking.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PlaceInvariant {
-    /// The places it weighs, each at least once.
+    /// Places with positive weights.
     pub weights: Vec<(PlaceId, u64)>,
-    /// The sum.
+    /// The weighted sum of tokens.
     pub tokens: u64,
 }
 
-/// A transition invariant: how often each of some transitions, ascending, must fire so that the marking is as it was before.
-/// It says nothing of an order in which they can fire.
+/// A transition invariant: transitions, ascending, with numbers of firings that together restore the marking. An order
+/// in which they can fire need not exist.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TransitionInvariant {
-    /// The transitions that fire, each at least once.
+    /// Transitions with positive numbers of firings.
     pub firings: Vec<(TransitionId, u64)>,
 }
 
-/// The invariants found.
+/// Result of a search for invariants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Invariants<I> {
-    /// In ascending order.
+    /// Invariants found, in ascending order.
     pub found: Vec<I>,
-    /// Whether these are all semi-positive invariants of minimal support. If not, a limit ended the search, and the support of
-    /// some that were found may not be minimal.
+    /// Whether `found` is complete: all semi-positive invariants of minimal support. If not, a limit ended the search,
+    /// and the support of some of those found may not be minimal.
     pub all: bool,
 }
 
-/// The semi-positive place invariants of minimal support.
+/// Computes the semi-positive place invariants (P-semiflows) of minimal support.
 #[must_use]
 pub fn place_invariants(net: &Net, incidence: &Incidence, limits: Limits) -> Invariants<PlaceInvariant> {
     let rows = net.place_ids().map(|id| (id.index(), net.place(id).tokens, incidence.of_place(id)));
@@ -46,7 +47,7 @@ pub fn place_invariants(net: &Net, incidence: &Incidence, limits: Limits) -> Inv
     Invariants { found, all }
 }
 
-/// The semi-positive transition invariants of minimal support.
+/// Computes the semi-positive transition invariants (T-semiflows) of minimal support.
 #[must_use]
 pub fn transition_invariants(net: &Net, incidence: &Incidence, limits: Limits) -> Invariants<TransitionInvariant> {
     let rows = net.transition_ids().map(|id| (id.index(), 0, incidence.of_transition(id)));
@@ -60,20 +61,20 @@ pub fn transition_invariants(net: &Net, incidence: &Incidence, limits: Limits) -
     Invariants { found, all }
 }
 
-/// A basis of all place invariants, also those with negative weights, over the fractions; and the rank of the incidence
-/// matrix. Nothing if it takes more than so many elementary steps.
+/// Computes a basis of all place invariants over the rationals, negative weights included, and the rank of the
+/// incidence matrix. `None` if more than `steps` elementary steps are needed.
 #[must_use]
 pub fn place_basis(net: &Net, incidence: &Incidence, steps: u64) -> Option<Kernel> {
     kernel(net.place_ids().map(|id| incidence.of_place(id).to_vec()), net.transitions().len(), steps)
 }
 
-/// A basis of all transition invariants, like [`place_basis`].
+/// Computes a basis of all transition invariants, like [`place_basis`].
 #[must_use]
 pub fn transition_basis(net: &Net, incidence: &Incidence, steps: u64) -> Option<Kernel> {
     kernel(net.transition_ids().map(|id| incidence.of_transition(id).to_vec()), net.places().len(), steps)
 }
 
-/// Rows that cannot be computed with are left out.
+/// Solves for semiflows. Rows with entries beyond 64 bits are left out.
 fn solutions<'i>(
     rows: impl Iterator<Item = (usize, u64, &'i [(u32, i128)])>,
     columns: usize,

@@ -1,26 +1,29 @@
-//! A basis of all solutions, for nets where those with minimal support are too many: weights may be negative.
+//! A basis of the left kernel of an integer matrix, for nets with too many solutions of minimal support; weights may be
+//! negative.
 //!
-//! Columns are eliminated as in Gauss's algorithm, but on whole numbers: of the rows that a column changes the shortest is
-//! subtracted from the others, as often as it takes, and given up. What is left changes no column. As many rows were given
-//! up as the rank of the matrix says.
+//! Fraction-free Gaussian elimination: of the rows with an entry in a column, the shortest is the pivot; multiples of
+//! it are subtracted from the others, and it is dropped. The rows left in the end are zero in every column; the number
+//! of dropped rows is the rank of the matrix.
 
 use std::collections::BTreeSet;
 
 use super::sparse::{gcd, merge};
 
-/// Rows with how often each is taken, or columns with how they change a sum.
+/// Sparse vector: rows with their multiplicities, or columns with their entries.
 type Vector = Vec<(u32, i128)>;
 
-/// Independent sums of rows that are 0 in all columns; any other is a combination of these, with fractions.
+/// Basis of the left kernel: independent sums of rows that are 0 in all columns. Every other such sum is a rational
+/// combination of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Kernel {
-    /// The sums: rows, ascending, with weights.
+    /// Basis vectors: rows, ascending, with weights.
     pub vectors: Vec<Vector>,
     /// The rank of the matrix.
     pub rank: usize,
 }
 
-/// The kernel of a matrix given by rows. Nothing if it takes more than so many elementary steps, or too large numbers.
+/// Computes the left kernel of a matrix given by rows. `None` if more than `steps` elementary steps are needed, or
+/// numbers become too large.
 pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64) -> Option<Kernel> {
     let mut rows: Vec<Option<(Vector, Vector)>> =
         rows.enumerate().map(|(position, changes)| Some((vec![(position as u32, 1)], changes))).collect();
@@ -28,7 +31,7 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
     for (number, (_, changes)) in rows.iter().flatten().enumerate() {
         changes.iter().for_each(|&(column, _)| _ = changing[column as usize].insert(number as u32));
     }
-    // The columns that fewest rows change come first; among these in no particular order, as chains would grow long.
+    // Columns with the fewest entries come first; ties are broken by a hash, since along a chain rows would grow long.
     let key = |changing: &[BTreeSet<u32>], column: u32| {
         (changing[column as usize].len(), column.wrapping_mul(0x9E37_79B9), column)
     };
@@ -42,7 +45,7 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
         let shortest = numbers.iter().copied().min_by_key(length)?;
         let (pivot_sum, pivot) = rows[shortest as usize].take()?;
         let by = at(&pivot, column);
-        // Notes which columns a row changes no longer, and which now.
+        // Updates the columns in which a row has entries.
         let mut update = |number: u32, before: &Vector, now: &Vector| {
             for (column, present) in differences(before, now) {
                 order.remove(&key(&changing, column));
@@ -72,7 +75,7 @@ pub fn kernel(rows: impl Iterator<Item = Vector>, columns: usize, mut steps: u64
     Some(Kernel { vectors: rows.into_iter().flatten().map(|(sum, _)| sum).collect(), rank })
 }
 
-/// The columns that are in one of two vectors only, and whether in the second one.
+/// Columns that are in only one of two vectors, and whether in the second one.
 fn differences(before: &Vector, now: &Vector) -> Vec<(u32, bool)> {
     let (mut before, mut now) = (before.iter().map(|&(c, _)| c).peekable(), now.iter().map(|&(c, _)| c).peekable());
     let mut differences = Vec::new();
@@ -96,7 +99,7 @@ fn at(vector: &Vector, column: u32) -> i128 {
     vector.binary_search_by_key(&column, |&(c, _)| c).map_or(0, |at| vector[at].1)
 }
 
-/// Divides both by what all their numbers have in common. Nothing if a number is too large.
+/// Divides both vectors by the greatest common divisor of all their entries. `None` if a number is too large.
 fn reduce(sum: &mut Vector, changes: &mut Vector) -> Option<()> {
     let mut common = 0;
     for &(_, value) in sum.iter().chain(changes.iter()) {

@@ -1,16 +1,16 @@
-//! The largest siphon and the largest trap within a set of places. Both exist, since unions of siphons are siphons and unions of
-//! traps are traps; both are found in time proportional to the net.
+//! The largest siphon and the largest trap within a set of places. Both exist, since unions of siphons are siphons and
+//! unions of traps are traps; both are found in time linear in the size of the net.
 
 use fixedbitset::FixedBitSet;
 
 use super::flow::Flow;
 
-/// The largest trap within a set of places: what is left when places whose tokens some transition needs without putting any
-/// on the set are taken away, one after another.
+/// Computes the largest trap within a set of places, by removing, one after another, places that a transition takes
+/// tokens from or reads without putting any on the set.
 #[must_use]
 pub fn largest_trap(flow: &Flow, within: &FixedBitSet) -> FixedBitSet {
     let mut left = within.clone();
-    // How many places of the set each transition puts tokens on.
+    // For each transition, the number of places of the set in its postset.
     let mut supports: Vec<usize> = (0..flow.transitions())
         .map(|id| flow.outputs[id].iter().filter(|&&place| left.contains(place as usize)).count())
         .collect();
@@ -31,8 +31,8 @@ pub fn largest_trap(flow: &Flow, within: &FixedBitSet) -> FixedBitSet {
     left
 }
 
-/// The largest siphon within a set of places: what is left when places that some transition puts tokens on without needing any
-/// of the set are taken away, one after another.
+/// Computes the largest siphon within a set of places, by removing, one after another, places that a transition puts
+/// tokens on without needing any of the set.
 #[must_use]
 pub fn largest_siphon(flow: &Flow, within: &FixedBitSet) -> FixedBitSet {
     largest_trap(&flow.reversed(), within)

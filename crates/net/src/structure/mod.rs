@@ -1,4 +1,4 @@
-//! What can be said of a net without exploring it: the theory of its structure.
+//! Structure theory: properties of a net that follow without exploring it.
 
 mod class;
 mod commoner;

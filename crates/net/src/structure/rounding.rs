@@ -1,16 +1,16 @@
-//! From numbers in floating point to whole numbers in the same proportions, if these are simple ones.
+//! Rounding of floating-point vectors to integer vectors in the same proportions, if these are simple.
 
-/// The largest denominator a single number may bring in.
+/// Largest denominator of a single number.
 const DENOMINATOR: i128 = 10_000;
 
-/// The largest denominator of all numbers together.
+/// Largest common denominator of all numbers.
 const COMMON: i128 = 1 << 50;
 
-/// What a number may differ from its rounding, for each unit of its size.
+/// Maximum relative difference between a number and its rounding.
 const ERROR: f64 = 1e-6;
 
-/// Proportions of whole numbers that are near those of the given ones, likely ones first. Each number is divided by a unit that
-/// occurs among them; whoever asks has to verify which proportions will do.
+/// Integer vectors nearly proportional to a vector, the likeliest first. Each divides the numbers by a unit that occurs
+/// among them; the caller must verify which of them will do.
 pub fn proportions(numbers: &[f64]) -> impl Iterator<Item = Vec<i128>> + '_ {
     let most = numbers.iter().fold(0.0_f64, |most, &number| most.max(number.abs()));
     let large = move |number: &f64| number.abs() > most * 1e-9;
@@ -22,7 +22,7 @@ pub fn proportions(numbers: &[f64]) -> impl Iterator<Item = Vec<i128>> + '_ {
     })
 }
 
-/// The numbers times their common denominator, and that denominator.
+/// Returns the numbers times their common denominator, and that denominator.
 pub fn whole(numbers: &[f64]) -> Option<(Vec<i128>, i128)> {
     let mut common: i128 = 1;
     for number in numbers {
@@ -35,7 +35,7 @@ pub fn whole(numbers: &[f64]) -> Option<(Vec<i128>, i128)> {
     Some((numbers.iter().map(round).collect::<Option<_>>()?, common))
 }
 
-/// The smallest denominator of a fraction near a number, by its continued fraction.
+/// Finds the smallest denominator of a fraction near a number, by its continued fraction.
 fn denominator(number: f64) -> Option<i128> {
     let error = ERROR * number.abs().clamp(1.0, 1e3);
     let (mut before, mut denominator) = (0_i128, 1_i128);

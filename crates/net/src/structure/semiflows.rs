@@ -1,55 +1,55 @@
-//! Semi-positive solutions with minimal support: sums of rows, with weights that are not negative, that are 0 in all columns.
+//! Semiflows of minimal support: sums of rows, with non-negative weights, that are 0 in all columns.
 //!
-//! For rows that say how columns change places these are place invariants, for the other way round column
+//! With places as rows and transitions as columns these are place invariants, the other way round transition
 //! invariants. The algorithm is Farkas's, in the form given by Colom and Silva (1991): columns are eliminated one after
-//! another, each by all combinations of two rows that have opposite signs there, and rows whose support holds that of another
-//! are left out. The number of minimal solutions can be exponential, so there are limits; rows beyond them are left out, which
-//! loses solutions but never makes a wrong one.
+//! another, each by all combinations of two rows with opposite signs there, and rows whose support contains that of
+//! another are left out. The number of minimal solutions can be exponential, so there are limits; rows beyond them are
+//! left out, which loses solutions but never makes a wrong one.
 
 use std::collections::BTreeSet;
 
 use super::sparse::{gcd, merge};
 
-/// Which solutions are wanted.
+/// Kind of solutions wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
-    /// Those with weights 1 and at most one token. They are found much faster, since tokens of rows only ever add up.
+    /// Solutions with weights 1 and at most one token. They are found much faster, since tokens of rows only add up.
     OneToken,
-    /// All.
+    /// All solutions.
     Any,
 }
 
-/// How far the search may go.
+/// Limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Rows kept at a time, for each row at the beginning.
+    /// Maximum number of rows kept at a time, per initial row.
     pub rows_each: usize,
-    /// Rows kept at a time in addition.
+    /// Maximum number of rows kept at a time in addition.
     pub rows: usize,
-    /// Elementary steps in all.
+    /// Maximum number of elementary steps.
     pub work: u64,
 }
 
 impl Default for Limits {
-    /// What takes a fraction of a second.
+    /// Limits for a fraction of a second.
     fn default() -> Self {
         Self { rows_each: 4, rows: 1000, work: 20_000_000 }
     }
 }
 
-/// Weights from here on are not computed with.
+/// Upper bound (exclusive) on weights; combinations beyond it are left out.
 const HEAVY: u64 = 1 << 31;
 
-/// The solutions found.
+/// Result of a search for semiflows.
 #[derive(Clone, Debug)]
 pub struct Solutions {
-    /// Rows without changes, whose weights are the solutions.
+    /// Rows without entries left, whose weights are the solutions.
     pub rows: Vec<Row>,
-    /// Whether these are all with minimal support. If not, some support may not be minimal.
+    /// Whether `rows` is complete: all solutions of minimal support. If not, some support may not be minimal.
     pub all: bool,
 }
 
-/// The solutions for rows that are changed in `columns` columns. The positions of the rows are below `count`.
+/// Computes the semiflows of a matrix with `columns` columns. The positions of the rows are below `count`.
 pub fn semiflows(rows: Vec<Row>, count: usize, columns: usize, wanted: Wanted, limits: Limits) -> Solutions {
     let mut tableau = Tableau::new(count, columns, wanted, limits);
     rows.into_iter().filter(|row| row.is(wanted)).for_each(|row| tableau.add(row));
@@ -60,29 +60,29 @@ pub fn semiflows(rows: Vec<Row>, count: usize, columns: usize, wanted: Wanted, l
     Solutions { rows: tableau.rows.into_iter().flatten().collect(), all: tableau.all }
 }
 
-/// The rows at some stage, and where they are found.
+/// The rows during elimination, with indexes.
 struct Tableau {
     wanted: Wanted,
-    /// Rows taken away leave a gap.
+    /// Rows by number; removed ones leave a gap.
     rows: Vec<Option<Row>>,
     len: usize,
     limit: usize,
     /// Elementary steps left.
     work: u64,
-    /// Whether no row was left out that might have led to a solution.
+    /// Whether no row has been left out that might have led to a solution.
     all: bool,
-    /// The rows that change a column had when they were added.
+    /// For each column, the rows that had an entry there when they were added.
     changing: Vec<Vec<u32>>,
-    /// The rows whose support begins there.
+    /// For each position, the rows whose support begins there.
     beginning: Vec<Vec<u32>>,
-    /// How many rows gain and lose by each column.
+    /// For each column, the numbers of rows with positive and with negative entries.
     counts: Vec<(u64, u64)>,
-    /// Columns counted anew, which may stand in a wrong place of the order.
+    /// Columns whose counts changed, so that their place in `order` may be out of date.
     counted: Vec<u32>,
-    /// Where each column stands in the order, if it does.
+    /// Cost under which each column is in `order`, if it is.
     costs: Vec<Option<i64>>,
-    /// The columns that rows change, that whose elimination adds the fewest rows first; the others in no particular order,
-    /// since along a path of places one row would become ever longer if it were followed.
+    /// Columns with entries, by the number of rows that their elimination adds; ties are broken by a hash, since
+    /// following a path of places would make one row ever longer.
     order: BTreeSet<(i64, u32, u32)>,
 }
 
@@ -129,7 +129,7 @@ impl Tableau {
         }
     }
 
-    /// Puts columns that were counted anew in their places.
+    /// Restores the order of columns whose counts changed.
     fn sort(&mut self) {
         let cost = |(gain, lose): (u64, u64)| (gain * lose) as i64 - (gain + lose) as i64;
         for column in self.counted.drain(..) {
@@ -144,7 +144,7 @@ impl Tableau {
         }
     }
 
-    /// Replaces the rows that a column changes by their combinations.
+    /// Eliminates a column: replaces the rows with an entry there by their combinations.
     fn eliminate(&mut self, column: u32) {
         let numbers = std::mem::take(&mut self.changing[column as usize]);
         let changed: Vec<Row> = numbers.into_iter().filter_map(|number| self.remove(number)).collect();
@@ -172,7 +172,7 @@ impl Tableau {
                 }
             }
         }
-        // Small supports are the more useful ones.
+        // Small supports are more useful.
         fresh.sort_by_key(|row| row.weights.len());
         let room = self.limit.saturating_sub(self.len);
         self.all &= fresh.len() <= room;
@@ -181,7 +181,7 @@ impl Tableau {
         self.sort();
     }
 
-    /// Takes steps from those left; false if there are none.
+    /// Spends elementary steps; returns false if none are left.
     fn takes(&mut self, steps: usize) -> bool {
         let are_left = self.work > 0;
         self.all &= are_left;
@@ -189,7 +189,7 @@ impl Tableau {
         are_left
     }
 
-    /// Whether the support of some row is part of that of another one.
+    /// Whether the support of a row contains that of a row of the tableau.
     fn holds_support_in(&mut self, larger: &Row) -> bool {
         larger.weights.iter().any(|&(first, _)| {
             self.work = self.work.saturating_sub(self.beginning[first].len() as u64);
@@ -199,20 +199,20 @@ impl Tableau {
     }
 }
 
-/// A weighted sum of the rows at the beginning: what it is worth initially, and how the columns not yet eliminated change it.
+/// A weighted sum of initial rows: its initial value, and its entries in columns not yet eliminated.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Which rows, ascending, and how often each.
+    /// Initial rows, ascending, with their weights.
     pub weights: Vec<(usize, u64)>,
-    /// What the sum is worth initially.
+    /// Initial value of the sum.
     pub tokens: u64,
     changes: Vec<(u32, i64)>,
-    /// A bit for each position modulo 64: no support holds another one unless these do.
+    /// A bit for each position modulo 64: a support contains another one only if its signature does.
     signature: u64,
 }
 
 impl Row {
-    /// A row as it is at the beginning, with how the columns change it, ascending, and without zeros.
+    /// Makes an initial row, with its entries in columns, ascending and without zeros.
     pub fn of(position: usize, tokens: u64, changes: Vec<(u32, i64)>) -> Self {
         Self { weights: vec![(position, 1)], tokens, changes, signature: 1 << (position % 64) }
     }
@@ -231,7 +231,7 @@ impl Row {
             && other.weights.iter().all(|&(one, _)| self.weights.binary_search_by_key(&one, |&(p, _)| p).is_ok())
     }
 
-    /// The combination of two rows that a column does not change; nothing if numbers become too large.
+    /// Combination of two rows that is 0 in a column; `None` if numbers become too large.
     fn combine(&self, other: &Self, column: u32) -> Option<Self> {
         let (mine, others) = (self.change(column).unsigned_abs(), other.change(column).unsigned_abs());
         let common = gcd(mine, others);
@@ -250,7 +250,7 @@ impl Row {
         Some(row)
     }
 
-    /// Divides by what all weights have in common.
+    /// Divides the row by the greatest common divisor of its weights.
     fn reduce(&mut self) {
         let common = self.weights.iter().fold(0, |common, &(_, weight)| gcd(common, weight));
         if common > 1 {

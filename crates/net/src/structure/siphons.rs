@@ -1,47 +1,47 @@
 //! Minimal siphons and minimal traps.
 //!
-//! A siphon is a set of places such that every transition that puts tokens on one of them needs tokens of one of them: once
-//! empty, it stays empty. A trap is the same with arcs turned round: once marked, it stays marked. Both hold whatever the weights
-//! are.
+//! A siphon is a set of places such that every transition that puts tokens on one of them needs tokens of one of them:
+//! once empty, it stays empty. A trap is a siphon of the net with arcs reversed: once marked, it stays marked. Weights
+//! play no part.
 //!
-//! The search begins with a place and, as long as some transition can fill the set from outside, takes in one of the
-//! places it needs, trying each in turn with those tried before shut out. So every minimal siphon is met exactly once. What is shut
-//! out spreads: a transition that has lost all its inputs shuts out its outputs.
+//! The search begins with a place and, as long as some transition can fill the set from outside, adds one of the places
+//! of its preset, trying each in turn with those tried before excluded. So every minimal siphon is found exactly once.
+//! Exclusion propagates: a transition whose inputs are all excluded excludes its outputs.
 
 use fixedbitset::FixedBitSet;
 
 use super::flow::Flow;
 use crate::net::PlaceId;
 
-/// How far the search may go.
+/// Limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SiphonLimits {
-    /// Sets found.
+    /// Maximum number of sets found.
     pub count: usize,
-    /// Elementary steps, some nanoseconds each.
+    /// Maximum number of elementary steps, some nanoseconds each.
     pub steps: u64,
 }
 
 impl Default for SiphonLimits {
-    /// What takes about a second at most.
+    /// Limits for about a second at most.
     fn default() -> Self {
         Self { count: 1000, steps: 100_000_000 }
     }
 }
 
-/// Which part of the steps left the search may take that begins with one place.
+/// Divisor of the steps left that gives the share of the search from one place.
 const SHARE: u64 = 8;
 
-/// The sets found.
+/// Result of a search for minimal siphons or traps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Siphons {
-    /// Minimal siphons, or traps: places in ascending order. The sets are in the order of their smallest places.
+    /// Minimal siphons, or traps: places in ascending order. The sets are ordered by their smallest places.
     pub found: Vec<Vec<PlaceId>>,
-    /// Whether these are all. If not, a limit ended the search.
+    /// Whether `found` is complete. If not, a limit ended the search.
     pub all: bool,
 }
 
-/// The minimal siphons of a net.
+/// Finds the minimal siphons of a net.
 #[must_use]
 pub fn minimal_siphons(flow: &Flow, limits: SiphonLimits) -> Siphons {
     let mut search = Search::new(flow, limits);
@@ -62,13 +62,13 @@ pub fn minimal_siphons(flow: &Flow, limits: SiphonLimits) -> Siphons {
     Siphons { found: search.found, all }
 }
 
-/// The minimal traps of a net.
+/// Finds the minimal traps of a net.
 #[must_use]
 pub fn minimal_traps(flow: &Flow, limits: SiphonLimits) -> Siphons {
     minimal_siphons(&flow.reversed(), limits)
 }
 
-/// A place, as far as it is known whether it belongs to the set.
+/// Decision on a place: whether it belongs to the set.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Belongs {
     Open,
@@ -82,14 +82,14 @@ struct Search<'f> {
     steps: u64,
     found: Vec<Vec<PlaceId>>,
     belongs: Vec<Belongs>,
-    /// For each transition how many of its inputs are not shut out, and how many are taken in.
+    /// For each transition the number of its inputs that are not excluded; in `taken`, of those included.
     candidates: Vec<u32>,
     taken: Vec<u32>,
-    /// Places in the order in which they were taken in or shut out.
+    /// Places in the order in which they were included or excluded.
     trail: Vec<u32>,
-    /// Those taken in, in this order.
+    /// Included places, in this order.
     members: Vec<u32>,
-    /// Marks of places and counts of transitions, for [`Self::holds_siphon`].
+    /// Scratch memory of [`Self::holds_siphon`]: marks of places, and counts of transitions in `supports`.
     left: FixedBitSet,
     supports: Vec<u32>,
 }
@@ -109,7 +109,7 @@ impl<'f> Search<'f> {
             left: FixedBitSet::with_capacity(flow.places()),
             supports: vec![0; flow.transitions()],
         };
-        // What a transition without inputs fills is in no siphon.
+        // Places that a transition without inputs fills are in no siphon.
         for id in (0..flow.transitions()).filter(|&id| flow.inputs[id].is_empty()) {
             flow.outputs[id].iter().for_each(|&place| _ = search.shut_out(place));
         }
@@ -124,14 +124,14 @@ impl<'f> Search<'f> {
         self.steps = self.steps.saturating_sub(steps as u64);
     }
 
-    /// Finds the minimal siphons with a place and none of those that are shut out; then shuts it out too. False if a limit ended
-    /// the search.
+    /// Finds the minimal siphons with a place and without excluded ones; then excludes the place too. Returns false if
+    /// a limit ended the search.
     fn from(&mut self, place: u32) -> bool {
         if self.belongs[place as usize] != Belongs::Open {
             return true;
         }
         let start = self.trail.len();
-        // Places taken in by choice, with the length of the trail before. What follows from shutting them out comes after.
+        // Places included by choice, each with the length of the trail before it.
         let mut choices: Vec<(u32, usize)> = Vec::new();
         self.take_in(place);
         let is_done = loop {
@@ -150,7 +150,8 @@ impl<'f> Search<'f> {
         is_done
     }
 
-    /// Goes back to the last choice that can be made otherwise, and shuts its place out. False if there is none.
+    /// Backtracks to the last choice that can be made otherwise, and excludes its place. Returns false if there is
+    /// none.
     fn turn(&mut self, choices: &mut Vec<(u32, usize)>) -> bool {
         while let Some((choice, trail)) = choices.pop() {
             self.undo(trail);
@@ -161,8 +162,8 @@ impl<'f> Search<'f> {
         false
     }
 
-    /// A place that may be taken in next; nothing if the set is a siphon, which is noted if it is minimal, or can never become a
-    /// minimal one.
+    /// Chooses a place to include next. `None` if the set is a siphon, which is recorded if it is minimal, or can never
+    /// become a minimal one.
     fn choice(&mut self) -> Option<u32> {
         let flow = self.flow;
         let mut scarcest: Option<u32> = None;
@@ -193,7 +194,7 @@ impl<'f> Search<'f> {
         flow.inputs[transition as usize].iter().copied().find(|&place| self.belongs[place as usize] == Belongs::Open)
     }
 
-    /// Whether the set, perhaps without one of its members, holds a siphon.
+    /// Whether the set, optionally without one of its members, contains a siphon.
     fn holds_siphon(&mut self, without: Option<usize>) -> bool {
         let flow = self.flow;
         let mut steps = 0;
@@ -244,7 +245,8 @@ impl<'f> Search<'f> {
         self.flow.consumers[place as usize].iter().for_each(|&id| self.taken[id as usize] += 1);
     }
 
-    /// Shuts out a place, and what can then be filled without any input. False if that is part of the set.
+    /// Excludes a place, and every place that can then be filled without any input. Returns false if one of these is in
+    /// the set.
     fn shut_out(&mut self, place: u32) -> bool {
         let flow = self.flow;
         let mut waiting = vec![place];
@@ -267,7 +269,7 @@ impl<'f> Search<'f> {
         true
     }
 
-    /// Undoes what was decided since the trail had this length.
+    /// Undoes the decisions made since the trail had a length.
     fn undo(&mut self, trail: usize) {
         for place in self.trail.split_off(trail) {
             let counts = match self.belongs[place as usize] {

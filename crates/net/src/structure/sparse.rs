@@ -1,7 +1,7 @@
-//! Sparse vectors: ascending lists of positions with values that are not 0.
+//! Sparse vectors: ascending lists of positions with non-zero values.
 
-/// Two ascending lists in one, the values of each key combined; 0 stands for a value that is not there. Nothing if a value
-/// cannot be computed.
+/// Merges two ascending lists, combining the values of each key; 0 stands for a missing value. `None` if a value cannot
+/// be computed.
 pub fn merge<K: Ord + Copy, V: Default + Copy>(
     left: &[(K, V)],
     right: &[(K, V)],
@@ -21,7 +21,7 @@ pub fn merge<K: Ord + Copy, V: Default + Copy>(
     }
 }
 
-/// The greatest common divisor; that of 0 and a number is the number.
+/// Greatest common divisor; that of 0 and a number is the number.
 pub fn gcd(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }

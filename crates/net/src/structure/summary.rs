@@ -1,4 +1,4 @@
-//! Everything that is said of a net's structure, at once and within limits.
+//! Summary of a net's structure, computed within limits.
 
 use super::state_equation::{Bound, Problem};
 use super::{
@@ -8,43 +8,43 @@ use super::{
 };
 use crate::net::{Net, PlaceId, TransitionId};
 
-/// Elementary steps that the rank, and the bound on all tokens, may take.
+/// Maximum number of elementary steps for the rank, and for the bound on all tokens.
 const STEPS: u64 = 100_000_000;
 
-/// The structure of a net.
+/// Structural properties of a net.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// Classes by the shape of arcs.
+    /// Structural classes.
     pub class: Class,
-    /// How the net hangs together.
+    /// Connected components.
     pub components: Components,
-    /// The rank of the incidence matrix, if it could be computed: so many fewer than places are the independent place
-    /// invariants, so many fewer than transitions the independent transition invariants.
+    /// Rank of the incidence matrix, if it could be computed. The number of independent place invariants is the number
+    /// of places minus the rank, and likewise for transitions.
     pub rank: Option<usize>,
     /// Minimal place invariants.
     pub place_invariants: Invariants<PlaceInvariant>,
     /// Minimal transition invariants.
     pub transition_invariants: Invariants<TransitionInvariant>,
-    /// What place invariants say a place has at most, place by place.
+    /// Upper bound on the tokens of each place by place invariants.
     pub place_bounds: Vec<Option<u64>>,
-    /// The most tokens in a marking as the state equation limits them, with the proof.
+    /// Upper bound on the total number of tokens by the state equation, with proof.
     pub bound: Option<Bound>,
     /// Minimal siphons.
     pub siphons: Siphons,
     /// Minimal traps.
     pub traps: Siphons,
-    /// Whether every siphon holds a trap that is marked initially.
+    /// Commoner's property: whether every siphon contains a trap that is marked initially.
     pub commoner: Commoner,
-    /// Transitions that never fire, since they need tokens of a siphon that has none.
+    /// Transitions that never fire, since they need tokens of an initially empty siphon.
     pub starved: Vec<TransitionId>,
-    /// Whether it follows from siphons and traps that there is no deadlock.
+    /// Whether siphons and traps imply that there is no deadlock.
     pub excludes_deadlock: bool,
-    /// Whether it follows from siphons and traps that the net is live, or that it is not.
+    /// Whether the net is live, if siphons and traps decide it.
     pub is_live: Option<bool>,
 }
 
 impl Summary {
-    /// The structure of a net. Limits are so many times those that keep every part below about a second.
+    /// Analyses a net. Limits are `effort` times those that keep every part below about a second.
     #[must_use]
     pub fn of(net: &Net, effort: u32) -> Self {
         let times = u64::from(effort);
@@ -85,30 +85,30 @@ impl Summary {
         }
     }
 
-    /// Whether every place is part of a place invariant, so that the net is bounded whatever its initial marking; nothing if
-    /// too few invariants were found to tell.
+    /// Whether every place is covered by a place invariant, so that the net is bounded for every initial marking;
+    /// `None` if too few invariants were found to tell.
     #[must_use]
     pub fn is_conservative(&self) -> Option<bool> {
         let parts = self.place_invariants.found.iter().flat_map(|one| &one.weights).map(|(place, _)| place.index());
         covers(self.place_bounds.len(), parts, self.place_invariants.all)
     }
 
-    /// Whether every transition is part of a transition invariant, as it must be in a net that is live and bounded; nothing if
-    /// too few invariants were found to tell.
+    /// Whether every transition is covered by a transition invariant, as is necessary for a live and bounded net;
+    /// `None` if too few invariants were found to tell.
     #[must_use]
     pub fn is_consistent(&self, net: &Net) -> Option<bool> {
         let parts = self.transition_invariants.found.iter().flat_map(|one| &one.firings).map(|(id, _)| id.index());
         covers(net.transitions().len(), parts, self.transition_invariants.all)
     }
 
-    /// The most tokens a place can have, if place invariants limit all places.
+    /// Upper bound on the tokens of any place, if place invariants bound all places.
     #[must_use]
     pub fn most_in_place(&self) -> Option<u64> {
         self.place_bounds.iter().copied().try_fold(0, |most, bound| Some(most.max(bound?)))
     }
 }
 
-/// What place invariants say a place has at most, place by place.
+/// Upper bound on the tokens of each place by place invariants.
 fn place_bounds(net: &Net, invariants: &[PlaceInvariant]) -> Vec<Option<u64>> {
     let mut bounds: Vec<Option<u64>> = vec![None; net.places().len()];
     for invariant in invariants {
@@ -121,7 +121,7 @@ fn place_bounds(net: &Net, invariants: &[PlaceInvariant]) -> Vec<Option<u64>> {
     bounds
 }
 
-/// Whether parts cover everything; if they do not, and are not all, nobody knows.
+/// Whether parts cover everything; `None` if they do not and the list of parts is incomplete.
 fn covers(count: usize, parts: impl Iterator<Item = usize>, all: bool) -> Option<bool> {
     let mut covered = vec![false; count];
     parts.for_each(|part| covered[part] = true);

@@ -1,27 +1,28 @@
-//! Agglomerations: what puts tokens on a place and what takes them from there become one.
+//! Agglomerations: transitions that put tokens on a place are fused with those that take them from there.
 //!
-//! In all of them, H are the transitions that put tokens on a place p, F those that need some of it. No transition is both, p is
-//! not kept, and F take one token at a time, or H put one at a time. For each h and each choice of f that uses up what it puts (or
-//! each f and each choice of h that gives what it takes), a transition is added that stands for these firings one after the
-//! other. Then p, H and F go. A run of the reduced net is a run of the original if it is written out. So what is left to show is
-//! that the original can do no more.
+//! Throughout, H are the transitions that put tokens on a place p, and F those that need tokens of p. No transition is
+//! in both, p is not kept, and every f takes one token at a time, or every h puts one at a time. For each h and each
+//! choice of f that uses up the tokens of h (or each f and each choice of h that supplies the tokens of f), a
+//! transition is added that stands for these firings one after the other. Then p, H and F are removed. A run of the
+//! reduced net, written out, is a run of the original. It remains to show that the original can do no more.
 //!
-//! **Post-agglomeration.** Each f needs one token of p and nothing else, and changes no kept place. Take a run. Let F fire at its
-//! end until p is empty: kept places do not change. Each f can be moved forward to right after the h that put its token, since
-//! it needs nothing else, and what it puts is there only earlier. Tokens on p at the beginning are used up by F at once, if there
-//! is only one f. A dead marking has no token on p, so nothing fires at the end, and the same transitions are enabled in both
-//! nets. Keeps what is reachable, and deadlocks.
+//! **Post-agglomeration.** Each f needs one token of p and nothing else, and changes no kept place. Take a run. Let F
+//! fire at its end until p is empty: kept places do not change. Each f can be moved forward to right after the h that
+//! put its token, since f needs nothing else, and the tokens it puts are only there earlier. Initial tokens on p are
+//! used up by F at once, if there is only one f. A dead marking has no token on p, so nothing fires at the end, and the
+//! same transitions are enabled in both nets. Keeps reachability and deadlocks.
 //!
-//! **Free agglomeration.** Each h puts one token on p and nothing else, and changes no kept place; p is empty at the beginning. Take
-//! a run. Each h can be moved back to right before the f that takes its token: what it takes is there only longer. Those
-//! whose token nobody takes are left out. Keeps what is reachable.
+//! **Free agglomeration.** Each h puts one token on p and nothing else, and changes no kept place; p is empty
+//! initially. Take a run. Each h can be moved back to right before the f that takes its token: the tokens that h takes
+//! only stay longer. An h whose token is never taken is left out. Keeps reachability.
 //!
-//! **Pre-agglomeration.** The same, and besides each h needs something, and is the only transition that needs it. Suppose a marking
-//! of the original is dead, and leave out the firings of H whose token is still on p. No transition but H notices. No f has
-//! all it needs besides p's tokens (or these are too few, and H cannot fire again), so what stands for both is not enabled:
-//! the marking is dead in the reduced net. Suppose a marking of the reduced net is dead, and let H fire as long as they can. They come
-//! to an end; no f is enabled then, or the transition that stands for both would have been. Keeps what is reachable, and
-//! deadlocks; for these, lifting lets H fire at the end.
+//! **Pre-agglomeration.** As free agglomeration; in addition each h needs tokens, and is the only transition that needs
+//! tokens of these places. Suppose a marking of the original is dead, and leave out the firings of H whose token is
+//! still on p. This makes no difference to other transitions. No f has all it needs apart from the tokens of p (or
+//! these are too few, and H cannot fire again), so no transition that stands for both is enabled: the marking is dead
+//! in the reduced net. Suppose a marking of the reduced net is dead, and let H fire as long as possible. This ends, and
+//! then no f is enabled, or else the transition that stands for both would have been. Keeps reachability and deadlocks;
+//! for deadlocks, lifting lets H fire at the end.
 //!
 //! Source: Berthelot 1987, "Transformations and decompositions of nets"; with weights and free agglomeration, Thierry-Mieg 2020,
 //! "Structural reductions revisited".
@@ -30,23 +31,23 @@ use super::draft::{Draft, MANY, Row, sum, weight, without};
 use super::log::{Around, Step};
 use super::{Property, Rule};
 
-/// Firings that a transition may stand for, beyond one.
+/// Maximum number of further firings in a transition made by agglomeration.
 const LONGEST: u64 = 8;
 
-/// Initial firings that a run may begin with for one place.
+/// Maximum number of initial firings for one place.
 const BEGUN: u64 = 256;
 
-/// Transitions that may come for those that go, if they are more than these.
+/// Number of new transitions that is always acceptable, even if fewer are removed.
 const MOST: usize = 16;
 
-/// What is put in the place of H and F.
+/// A transition that replaces members of H and F; `word` lists the firings it stands for.
 struct Made {
     pre: Row,
     post: Row,
     word: Vec<u32>,
 }
 
-/// H and F, if none is in both, and an agglomeration makes any sense.
+/// Returns H and F of a place, if they are disjoint and not empty and the place is not kept.
 fn sides(draft: &Draft, place: u32) -> Option<(Vec<u32>, Vec<u32>)> {
     let row = draft.place(place);
     let (before, after) = (&row.producers, &row.consumers);
@@ -54,21 +55,21 @@ fn sides(draft: &Draft, place: u32) -> Option<(Vec<u32>, Vec<u32>)> {
     (!row.is_kept && !before.is_empty() && !after.is_empty() && is_apart).then(|| (before.clone(), after.clone()))
 }
 
-/// Whether so many new transitions are worth it.
+/// Whether replacing `old` transitions by `new` ones is worthwhile.
 fn is_worth(old: usize, new: usize) -> bool {
     new <= old.max(MOST)
 }
 
-/// In how many ways `times` can be chosen of `kinds`, if they are not too many.
+/// Number of multisets of size `times` from `kinds` elements; `None` if `times` is above the limit.
 fn choices(kinds: usize, times: u64) -> Option<usize> {
     if times > LONGEST {
         return None;
     }
-    // Each factor keeps the product whole: it is a binomial coefficient.
+    // Every intermediate product is a binomial coefficient, so the division is exact.
     (1..=times as usize).try_fold(1_usize, |ways, i| ways.checked_mul(kinds + i - 1).map(|product| product / i))
 }
 
-/// All ways to choose `times` of `kinds`, order left aside.
+/// All multisets of size `times` from `kinds`.
 fn chosen(kinds: &[u32], times: u64) -> Vec<Vec<u32>> {
     if times == 0 {
         return vec![Vec::new()];
@@ -79,7 +80,7 @@ fn chosen(kinds: &[u32], times: u64) -> Vec<Vec<u32>> {
     kinds.iter().enumerate().flat_map(with).collect()
 }
 
-/// Post-agglomeration at a place, if it is possible.
+/// Applies post-agglomeration at a place, if possible.
 pub fn post(draft: &mut Draft, place: u32) -> bool {
     let Some((before, after)) = sides(draft, place) else { return false };
     draft.spend(before.len() + after.len());
@@ -113,7 +114,7 @@ pub fn post(draft: &mut Draft, place: u32) -> bool {
     true
 }
 
-/// Fires a transition at the beginning. Whether numbers are small enough.
+/// Fires a transition in the initial marking. Returns whether the numbers stay small enough.
 fn begin(draft: &mut Draft, transition: u32, times: u64) -> bool {
     let post = draft.transition(transition).post.clone();
     let more = post.iter().map(|&(place, weight)| {
@@ -126,7 +127,7 @@ fn begin(draft: &mut Draft, transition: u32, times: u64) -> bool {
     true
 }
 
-/// Pre-agglomeration at a place, or free agglomeration, if it is possible.
+/// Applies pre-agglomeration or free agglomeration at a place, if possible.
 pub fn pre(draft: &mut Draft, place: u32) -> bool {
     let Some((before, after)) = sides(draft, place) else { return false };
     draft.spend(before.len() + after.len());
@@ -172,7 +173,7 @@ pub fn pre(draft: &mut Draft, place: u32) -> bool {
     true
 }
 
-/// Puts new transitions in the place of old ones and of the place between them.
+/// Replaces old transitions, and the place between them, by new transitions.
 fn replace(draft: &mut Draft, place: u32, old: &[u32], new: Vec<Made>) {
     draft.remove_place(place);
     old.iter().for_each(|&id| draft.remove_transition(id));

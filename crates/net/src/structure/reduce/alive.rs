@@ -1,9 +1,9 @@
-//! A transition that needs nothing.
+//! Transitions that are always enabled.
 //!
-//! It is always enabled, so no marking is dead. A transition without arcs is added that says so in the reduced net, too; for the
-//! rest, what is reachable is all that matters.
+//! A transition with an empty preset is always enabled, so no marking is dead. A transition without arcs is added so
+//! that this holds in the reduced net too; for the rest, only reachability matters.
 //!
-//! Keeps what is reachable, and deadlocks: there are none, before and after.
+//! Keeps reachability and deadlocks: there are none, before and after.
 
 use super::draft::{Draft, Row};
 use super::{Property, Rule};

@@ -1,9 +1,9 @@
-//! Transitions that can never fire.
+//! Dead transitions: those that can never fire.
 //!
-//! Suppose that a transition, once enabled, could fill the places it adds tokens to without end. Whatever cannot fire even
-//! then never fires. Where all weights are 1, this finds the largest siphon without tokens.
+//! Suppose that a transition, once enabled, puts any number of tokens on the places to which it adds tokens. A
+//! transition that cannot fire even then never fires. If all weights are 1, this finds the largest unmarked siphon.
 //!
-//! Keeps everything: the graph of markings stays as it is.
+//! Keeps everything: the reachability graph is unchanged.
 //!
 //! Source: the greatest unmarked siphon, Murata 1989, "Petri nets: Properties, analysis and applications", section VI.
 
@@ -11,7 +11,7 @@ use super::Rule;
 use super::draft::Draft;
 
 pub fn apply(draft: &mut Draft) {
-    // For each transition, how many places may lack tokens.
+    // For each transition, the number of places of its preset that may lack tokens.
     let mut lacking: Vec<usize> = vec![0; draft.transitions.len()];
     let mut waiting: Vec<u32> = Vec::new();
     for id in draft.transition_ids() {

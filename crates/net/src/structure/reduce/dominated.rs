@@ -1,18 +1,18 @@
-//! Transitions for which another one can stand in.
+//! Redundant transitions: those that others can replace.
 //!
-//! - *Dominated*: another transition changes the same and needs no more. Whatever the first does, the second does, too. Equal
-//!   transitions are the simplest case. Keeps everything: the same markings follow each other.
-//! - *Idle*: the transition changes nothing. Keeps what is reachable. Where deadlocks matter, it goes only if another transition
-//!   needs no more: otherwise it may be what keeps a marking from being dead.
-//! - *Composed*: two others, one after the other, change the same and need no more than it does. Keeps what is reachable, and
-//!   deadlocks: where it is enabled, so is the first of the two.
+//! - *Dominated*: another transition has the same effect and needs no more tokens, so it can fire instead. Equal
+//!   transitions are the simplest case. Keeps everything: the successors of every marking are the same.
+//! - *Idle*: the transition has no effect. Keeps reachability. For deadlocks it is removed only if another transition
+//!   needs no more tokens: otherwise it may be the only one enabled in a marking.
+//! - *Composed*: two others, one after the other, have the same effect and need no more tokens. Keeps reachability and
+//!   deadlocks: if the transition is enabled, so is the first of the two.
 //!
 //! Source: redundant transitions, Berthelot 1987; the second and third, Thierry-Mieg 2020, "Structural reductions revisited".
 
 use super::draft::{Draft, effect, is_covered, sum};
 use super::{Property, Rule};
 
-/// Transitions with which one is compared, at most.
+/// Maximum number of transitions with which one is compared.
 const COMPARED: usize = 64;
 
 /// Removes dominated transitions.
@@ -22,7 +22,7 @@ pub fn dominated(draft: &mut Draft) {
     all.sort_unstable();
     draft.spend(all.len());
     for group in all.chunk_by(|a, b| a.0 == b.0) {
-        // Those that need least come first. An equal one is the one before.
+        // Transitions that need the fewest tokens come first. Of equal ones the first is kept.
         let mut left: Vec<u32> = Vec::new();
         for &(_, _, id) in group {
             let row = draft.transition(id);
@@ -91,7 +91,7 @@ fn is_composed(draft: &Draft, prints: &[(u64, u32)], id: u32) -> bool {
         if !is_covered(&one.pre, &row.pre) {
             return false;
         }
-        // What is there when the first has fired, where the transition could.
+        // The tokens after the first has fired, where the transition was enabled.
         let Some(there) = sum([&row.pre, &one.post].into_iter()) else { return false };
         let there = effect(&one.pre, &there).into_iter().map(|(place, tokens)| (place, tokens as u64)).collect();
         // The second has to do the rest.
@@ -108,7 +108,7 @@ fn is_composed(draft: &Draft, prints: &[(u64, u32)], id: u32) -> bool {
     })
 }
 
-/// A number for what a firing changes: the sum of the numbers of two transitions is that of both firings together.
+/// Hash of a transition's effect. Additive: the sum of two fingerprints is that of both firings together.
 fn fingerprint(draft: &Draft, id: u32) -> u64 {
     let row = draft.transition(id);
     let weigh = |&(place, weight): &(u32, u64)| {

@@ -1,4 +1,4 @@
-//! A net in the making: places and transitions can go, and new transitions can come.
+//! A net that is being reduced: places and transitions can be removed, and transitions added.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -8,60 +8,60 @@ use super::log::Log;
 use super::{Keep, Options, Property, Rule};
 use crate::net::Net;
 
-/// Arcs of a transition on one side: places, ascending, with weights, none of them 0.
+/// Preset or postset of a transition: places, ascending, with weights, none of them 0.
 pub type Row = Vec<(u32, u64)>;
 
-/// Weights and tokens are smaller than this, so that sums of two fit.
+/// Upper bound (exclusive) on weights and tokens, so that sums of two fit in 64 bits.
 pub const MANY: u64 = 1 << 62;
 
-/// Places with more arcs are hubs.
+/// Number of arcs above which a place is a hub.
 const HUB: usize = 256;
 
-/// A place.
+/// A place of a draft.
 #[derive(Clone, Debug, Default)]
 pub struct Place {
     pub tokens: u64,
-    /// The property sees its tokens.
+    /// Whether the property observes the tokens of the place.
     pub is_kept: bool,
     pub is_gone: bool,
-    /// The transitions that have it in their postset, ascending.
+    /// Transitions with the place in their postset, ascending.
     pub producers: Vec<u32>,
-    /// The transitions that have it in their preset, ascending.
+    /// Transitions with the place in their preset, ascending.
     pub consumers: Vec<u32>,
 }
 
-/// A transition. A loop is an arc on each side.
+/// A transition of a draft. A self-loop is an arc in both `pre` and `post`.
 #[derive(Clone, Debug, Default)]
 pub struct Transition {
     pub pre: Row,
     pub post: Row,
     pub is_gone: bool,
-    /// No rule may remove it.
+    /// Whether no rule may remove the transition.
     pub is_held: bool,
 }
 
-/// The net as the rules see it. A node keeps its number when others go; numbers are not used twice.
+/// The net that the rules work on. A node keeps its number when others are removed; numbers are not reused.
 pub struct Draft<'s> {
     pub places: Vec<Place>,
     pub transitions: Vec<Transition>,
     pub property: Property,
-    /// What has to be known to lift runs.
+    /// Log of the steps, for lifting runs.
     pub log: Log,
-    /// How often each rule was applied, in the order of [`Rule::ALL`].
+    /// Number of applications of each rule, in the order of [`Rule::ALL`].
     pub applied: [usize; Rule::ALL.len()],
-    /// Places with changes around them that no local rule has seen yet.
+    /// Queue of places whose surroundings changed since local rules last looked at them.
     waiting: VecDeque<u32>,
     is_waiting: Vec<bool>,
-    /// The same for places with many arcs: they are looked at once a round.
+    /// Hubs whose surroundings changed: local rules look at them once per round.
     hubs: Vec<u32>,
     rules: Vec<Rule>,
     work: Cell<u64>,
-    /// Once it is set, nobody wants more rules applied.
+    /// Cancellation flag: once set, no more rules are applied.
     stopping: &'s AtomicBool,
 }
 
 impl<'s> Draft<'s> {
-    /// The draft of a net; nothing if its numbers are too large to calculate with.
+    /// Makes the draft of a net; `None` if numbers are too large.
     pub fn of(net: &Net, keep: &Keep, options: &Options, stopping: &'s AtomicBool) -> Option<Self> {
         let transitions: Vec<Transition> = net
             .transition_ids()
@@ -96,7 +96,7 @@ impl<'s> Draft<'s> {
         })
     }
 
-    /// Whether a rule is to be applied at all.
+    /// Whether a rule is enabled by the options.
     pub fn allows(&self, rule: Rule) -> bool {
         self.rules.contains(&rule)
     }
@@ -106,22 +106,22 @@ impl<'s> Draft<'s> {
         self.applied[rule as usize] += times;
     }
 
-    /// Takes note of work done.
+    /// Subtracts work done from the budget.
     pub fn spend(&self, work: usize) {
         self.work.set(self.work.get().saturating_sub(work as u64));
     }
 
-    /// Whether all the work allowed has been done, or no more is wanted.
+    /// Whether the budget is spent, or the reduction was cancelled.
     pub fn is_tired(&self) -> bool {
         self.work.get() == 0 || self.stopping.load(Ordering::Relaxed)
     }
 
-    /// The places there are.
+    /// The places not removed.
     pub fn place_ids(&self) -> impl Iterator<Item = u32> {
         (0..self.places.len() as u32).filter(|&id| !self.place(id).is_gone)
     }
 
-    /// The transitions there are.
+    /// The transitions not removed.
     pub fn transition_ids(&self) -> impl Iterator<Item = u32> {
         (0..self.transitions.len() as u32).filter(|&id| !self.transition(id).is_gone)
     }
@@ -134,23 +134,23 @@ impl<'s> Draft<'s> {
         &self.transitions[id as usize]
     }
 
-    /// The tokens a transition needs on a place.
+    /// Number of tokens that a transition needs on a place.
     pub fn needs(&self, transition: u32, place: u32) -> u64 {
         weight(&self.transition(transition).pre, place)
     }
 
-    /// The tokens a transition puts on a place.
+    /// Number of tokens that a transition puts on a place.
     pub fn puts(&self, transition: u32, place: u32) -> u64 {
         weight(&self.transition(transition).post, place)
     }
 
-    /// By how much a firing changes each place, those it leaves alone left out.
+    /// Effect of a transition: the places that firing changes, each with the change.
     pub fn effect(&self, transition: u32) -> Vec<(u32, i128)> {
         let Transition { pre, post, .. } = self.transition(transition);
         effect(pre, post)
     }
 
-    /// Whether no firing of a transition changes what is kept.
+    /// Whether no firing of a transition changes a kept place.
     pub fn is_silent(&self, transition: u32) -> bool {
         let row = self.transition(transition);
         let is_same =
@@ -159,7 +159,7 @@ impl<'s> Draft<'s> {
         row.pre.iter().all(is_same) && row.post.iter().all(comes)
     }
 
-    /// The transitions around a place, ascending, each once.
+    /// Transitions with an arc to or from a place, ascending, each once.
     pub fn around(&self, place: u32) -> Vec<u32> {
         let Place { producers, consumers, .. } = self.place(place);
         let mut around: Vec<u32> = producers.iter().chain(consumers).copied().collect();
@@ -168,7 +168,7 @@ impl<'s> Draft<'s> {
         around
     }
 
-    /// A place whose surroundings have changed since it was last asked for.
+    /// Takes a place from the queue whose surroundings have changed since it was last taken.
     pub fn next_waiting(&mut self) -> Option<u32> {
         while let Some(place) = self.waiting.pop_front() {
             self.is_waiting[place as usize] = false;
@@ -179,7 +179,7 @@ impl<'s> Draft<'s> {
         None
     }
 
-    /// The next round begins: places with many arcs wait with the others.
+    /// Begins the next round: puts the waiting hubs into the queue.
     pub fn wake_hubs(&mut self) {
         self.waiting.extend(self.hubs.drain(..));
     }
@@ -226,7 +226,7 @@ impl<'s> Draft<'s> {
         id
     }
 
-    /// Gives a transition other arcs.
+    /// Replaces the arcs of a transition.
     pub fn rewrite(&mut self, transition: u32, pre: Row, post: Row) {
         self.wake_around(transition);
         self.unlink(transition);
@@ -261,12 +261,12 @@ fn leave(list: &mut Vec<u32>, id: u32) {
     }
 }
 
-/// The weight of the arc that joins a place, 0 if there is none.
+/// Weight of a place in a row, 0 if it is not there.
 pub fn weight(row: &Row, place: u32) -> u64 {
     row.binary_search_by_key(&place, |&(place, _)| place).map_or(0, |position| row[position].1)
 }
 
-/// What a firing with these arcs changes.
+/// Effect of a firing with these arcs: the places changed, each with the change.
 pub fn effect(pre: &Row, post: &Row) -> Vec<(u32, i128)> {
     let taken = pre.iter().map(|&(place, weight)| (place, weight, 0));
     let put = post.iter().map(|&(place, weight)| (place, 0, weight));
@@ -284,7 +284,7 @@ pub fn effect(pre: &Row, post: &Row) -> Vec<(u32, i128)> {
     effect
 }
 
-/// Rows added up; nothing if a sum becomes too large.
+/// Sum of rows; `None` if a number becomes too large.
 pub fn sum<'r>(rows: impl Iterator<Item = &'r Row>) -> Option<Row> {
     let mut all: Row = rows.flatten().copied().collect();
     all.sort_unstable();
@@ -303,7 +303,7 @@ pub fn without(row: &Row, place: u32) -> Row {
     row.iter().copied().filter(|&(other, _)| other != place).collect()
 }
 
-/// Whether each place of the first row is in the second, with no smaller weight.
+/// Whether each place of the first row is in the second with at least the same weight.
 pub fn is_covered(row: &Row, by: &Row) -> bool {
     row.len() <= by.len() && row.iter().all(|&(place, needed)| weight(by, place) >= needed)
 }

@@ -1,10 +1,10 @@
-//! Places between which tokens move freely.
+//! Fusion of places between which tokens move freely.
 //!
-//! Transitions that take one token from one place and put one on another, with no other arc, are *moves*. Places that are not
-//! kept, each of which can be reached from each other one by moves, become one place: wherever their tokens are needed, they
-//! can be brought there. The moves become loops at that place. So what is reachable elsewhere stays the same. In a dead marking
-//! the places are empty, since otherwise a move could fire; and as long as the new place has a token, a loop can. Keeps what is
-//! reachable, and deadlocks.
+//! Transitions that take one token from one place and put one on another, with no other arc, are *moves*. Places that
+//! are not kept and are strongly connected by moves become one place, since a token on one of them can be moved to
+//! wherever it is needed. The moves become self-loops of that place. So the markings reachable elsewhere stay the same.
+//! In a dead marking the places are empty, since otherwise a move could fire; and as long as the new place has a token,
+//! a loop can fire. Keeps reachability and deadlocks.
 //!
 //! Source: fusion of equivalent places, Berthelot 1987; state machine components, Thierry-Mieg 2020.
 
@@ -44,7 +44,7 @@ fn as_move(draft: &Draft, id: u32) -> Option<(u32, u32, u32)> {
     is_free.then_some((*from, *to, id))
 }
 
-/// Makes one place of several, ascending.
+/// Fuses several places, given in ascending order, into one.
 fn fuse(draft: &mut Draft, circle: &[u32]) {
     let [into, others @ ..] = circle else { return };
     let tokens = circle.iter().try_fold(0_u64, |sum, &place| sum.checked_add(draft.place(place).tokens));

@@ -1,10 +1,10 @@
-//! Places that have enough tokens whenever another place has.
+//! Implicit places: those that have enough tokens whenever another place has.
 //!
-//! Two places p and q change in proportion: whenever p gains a tokens, q gains b. So the tokens of q follow from those of p. If
-//! these are enough for every transition that needs some of q, whenever the transition has what it needs of p, then q never
-//! holds anything back and goes, provided that it is not kept. Equal places are the simplest case.
+//! Two places p and q change in proportion: whenever p gains a tokens, q gains b. So the tokens of q follow from those
+//! of p. If every transition that needs tokens of q has enough of them whenever it has those it needs of p, then q
+//! never disables a transition, and is removed unless it is kept. Equal places are the simplest case.
 //!
-//! Keeps everything: markings are the same but for q.
+//! Keeps everything: markings are the same except for q.
 //!
 //! Source: redundant and implicit places, Berthelot 1987; parallel places, Murata 1989.
 
@@ -16,10 +16,10 @@ use super::Rule;
 use super::draft::Draft;
 use crate::structure::sparse::gcd;
 
-/// Places of one proportion that are compared with each other, at most.
+/// Maximum number of proportional places with which one is compared.
 const COMPARED: usize = 64;
 
-/// What the transitions do to a place, divided by what divides all of it.
+/// Row of the incidence matrix of a place, divided by its greatest common divisor `scale`, as a hash.
 struct Column {
     place: u32,
     hash: u64,
@@ -31,7 +31,7 @@ pub fn apply(draft: &mut Draft) {
     columns.sort_unstable_by_key(|column| (column.hash, column.scale, column.place));
     draft.spend(columns.len());
     for group in columns.chunk_by(|a, b| a.hash == b.hash) {
-        // Places of small weights stay.
+        // Places with small weights are kept in preference.
         for (position, q) in group.iter().enumerate().rev() {
             let others = group.iter().enumerate().filter(|&(other, _)| other != position).take(COMPARED);
             let is_implied = |p: &Column| !draft.place(p.place).is_gone && implies(draft, p, q) == Some(true);
@@ -63,7 +63,7 @@ fn column(draft: &Draft, place: u32) -> Option<Column> {
     Some(Column { place, hash: hasher.finish(), scale })
 }
 
-/// Whether p has enough tokens only if q has; nothing if numbers become too large.
+/// Whether q has enough tokens whenever p has; `None` if numbers become too large.
 fn implies(draft: &Draft, p: &Column, q: &Column) -> Option<bool> {
     let (a, b) = (i128::from(p.scale), i128::from(q.scale));
     let (on_p, on_q) = (draft.place(p.place), draft.place(q.place));

@@ -1,12 +1,13 @@
-//! What the kept places do not depend on.
+//! Slicing: removes transitions on which the kept places do not depend (cone of influence).
 //!
-//! A transition matters if it changes a kept place, or if it adds tokens to a place that a transition needs that matters. Leave
-//! the firings of all others out of a run: those that are left never find fewer tokens than before where they need some, and
-//! the kept places change as before. So the others go.
+//! A transition is relevant if it changes a kept place, or adds tokens to a place in the preset of a relevant
+//! transition. Leave the firings of all other transitions out of a run: the places that the remaining ones need never
+//! have fewer tokens than before, and the kept places change as before. So the others are removed.
 //!
-//! Keeps what is reachable; not deadlocks, since what goes may be all that can still fire.
+//! Keeps reachability; not deadlocks, since only removed transitions may be enabled in a marking.
 //!
-//! Source: slicing, Rakow 2012, "Safety slicing Petri nets"; transitions that only take are one step more.
+//! Source: slicing, Rakow 2012, "Safety slicing Petri nets"; removing transitions that only take tokens goes one step
+//! further.
 
 use super::draft::Draft;
 use super::{Property, Rule};

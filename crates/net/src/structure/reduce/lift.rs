@@ -1,4 +1,4 @@
-//! Runs of the reduced net become runs of the original: what was done is undone, last things first.
+//! Lifting runs of the reduced net to runs of the original, by undoing the logged steps in reverse order.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -7,14 +7,14 @@ use super::log::{Around, Log, Step};
 use super::{Property, Reduced};
 use crate::net::{Net, TransitionId};
 
-/// Why a run could not be lifted.
+/// Reason why a run could not be lifted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LiftError {
-    /// It is no run of the reduced net: the firing at this position is not enabled.
+    /// Not a run of the reduced net: the firing at this position is not enabled.
     NoRun(usize),
-    /// The run of the original would have more than this many firings.
+    /// The run of the original would have more firings than this limit.
     TooLong(usize),
-    /// What came out does not stand up to the replay on the original net. This would be an error in Petril.
+    /// The replay on the original net refutes the lifted run. This would be an error in Petril.
     Refuted(String),
 }
 
@@ -30,7 +30,7 @@ impl fmt::Display for LiftError {
 
 impl std::error::Error for LiftError {}
 
-/// Firings a lifted run may have.
+/// Maximum number of firings of a lifted run.
 const LONGEST: usize = 10_000_000;
 
 const TOO_LONG: LiftError = LiftError::TooLong(LONGEST);
@@ -61,7 +61,7 @@ pub(super) fn lift(reduced: &Reduced<'_>, run: &[TransitionId]) -> Result<Vec<Tr
     Ok(lifted)
 }
 
-/// The last marking of a run; the position of a firing that is not enabled.
+/// Returns the last marking of a run, or the position of a firing that is not enabled.
 fn replay(net: &Net, run: &[TransitionId]) -> Result<Vec<u64>, usize> {
     let mut tokens: Vec<u64> = net.places().map(|place| place.tokens).collect();
     for (position, &id) in run.iter().enumerate() {
@@ -85,9 +85,9 @@ fn is_dead(net: &Net, tokens: &[u64]) -> bool {
     !net.transition_ids().any(|id| is_enabled(net, tokens, id))
 }
 
-/// Undoes the steps of a log, last things first.
+/// Undoes the steps of a log in reverse order.
 fn undo(log: &Log, mut run: VecDeque<u32>) -> Result<VecDeque<u32>, LiftError> {
-    // How often each transition fires, of those that were there when the step to be undone was taken.
+    // Number of firings of each transition that existed when the step to be undone was taken.
     let mut counts = vec![0_u64; log.originals + log.words.len()];
     run.iter().for_each(|&id| counts[id as usize] += 1);
     for (transitions, step) in log.steps.iter().rev() {
@@ -134,7 +134,7 @@ fn undo(log: &Log, mut run: VecDeque<u32>) -> Result<VecDeque<u32>, LiftError> {
     spelled(log, run, log.originals)
 }
 
-/// A run in which the transitions from `first` on are written out.
+/// Returns a run in which the transitions from number `first` on are written out.
 fn spelled(log: &Log, run: VecDeque<u32>, first: usize) -> Result<VecDeque<u32>, LiftError> {
     let mut out = VecDeque::with_capacity(run.len());
     let mut stack: Vec<u32> = Vec::new();
@@ -153,7 +153,7 @@ fn spelled(log: &Log, run: VecDeque<u32>, first: usize) -> Result<VecDeque<u32>,
     Ok(out)
 }
 
-/// How often transitions that share no place of their presets can fire in the end.
+/// Number of times that transitions with disjoint presets can fire at the end of a run.
 fn finish(last: &[u32], around: &Around, counts: &[u64]) -> Result<Vec<(u32, u64)>, LiftError> {
     let mut tokens: Vec<i128> = around.tokens.iter().map(|&tokens| i128::from(tokens)).collect();
     for (id, pre, post) in &around.transitions {
@@ -176,7 +176,7 @@ fn finish(last: &[u32], around: &Around, counts: &[u64]) -> Result<Vec<(u32, u64
     last.iter().map(|id| times(id).ok_or_else(lost)).collect()
 }
 
-/// How often a transition must fire at the beginning so that its places never run short.
+/// Number of times that a transition must fire initially so that its places never lack tokens.
 fn supply(transition: u32, around: &Around, run: &VecDeque<u32>) -> Result<u64, LiftError> {
     let mut tokens: Vec<i128> = around.tokens.iter().map(|&tokens| i128::from(tokens)).collect();
     let mut short: Vec<i128> = vec![0; tokens.len()];
@@ -204,7 +204,7 @@ fn supply(transition: u32, around: &Around, run: &VecDeque<u32>) -> Result<u64, 
     u64::try_from(times).map_err(|_| TOO_LONG)
 }
 
-/// A run with the moves between fused places that each firing needs before it.
+/// Returns a run with the moves between fused places inserted that each firing needs.
 fn route(moves: &[(usize, usize, u32)], around: &Around, run: &VecDeque<u32>) -> Result<VecDeque<u32>, LiftError> {
     let mut into: Vec<Vec<(usize, u32)>> = vec![Vec::new(); around.tokens.len()];
     moves.iter().for_each(|&(from, to, id)| into[to].push((from, id)));
@@ -239,9 +239,9 @@ fn route(moves: &[(usize, usize, u32)], around: &Around, run: &VecDeque<u32>) ->
     Ok(out)
 }
 
-/// The nearest place from which a token can be spared for another one, and the moves that bring it.
+/// Finds the nearest place that can spare a token for another one, and the moves that bring it there.
 fn nearest(into: &[Vec<(usize, u32)>], to: usize, can_spare: &dyn Fn(usize) -> bool) -> Option<(usize, Vec<u32>)> {
-    // For each place that was seen, the move out of it and where that leads.
+    // For each place seen, the move out of it and the place it leads to.
     let mut next: Vec<Option<(u32, usize)>> = vec![None; into.len()];
     let mut waiting = VecDeque::from([to]);
     while let Some(place) = waiting.pop_front() {

@@ -1,46 +1,47 @@
-//! What has to be known to turn runs of the reduced net back into runs of the original.
+//! Log of a reduction, from which runs of the reduced net are lifted to runs of the original.
 //!
-//! Most rules ask for nothing: a run is a run of the original as it stands. Transitions made by agglomeration stand for others,
-//! one after the other. Whatever asks for more is a [`Step`]. Numbers of transitions only grow, so a step needs to know only how
-//! many there were: those that came later are written out before it is undone.
+//! Most rules need no entry: a run of the reduced net is a run of the original as it stands. Transitions made by
+//! agglomeration stand for sequences of others. Rules that need more log a [`Step`]. Transitions are numbered in
+//! ascending order, so a step only records how many there were: later ones are written out before the step is undone.
 
 use super::draft::{Draft, Row};
 
-/// All of it, in the order in which it happened.
+/// Log of a reduction, in order of time.
 #[derive(Clone, Debug, Default)]
 pub struct Log {
-    /// How many transitions the original has.
+    /// Number of transitions of the original.
     pub originals: usize,
-    /// What each further transition stands for; they are numbered from `originals`.
+    /// Sequence of transitions that each added transition stands for; added ones are numbered from `originals`.
     pub words: Vec<Box<[u32]>>,
-    /// Steps, each with how many transitions there were, gone or not.
+    /// Steps, each with the number of transitions made until then, removed ones included.
     pub steps: Vec<(usize, Step)>,
 }
 
-/// What is done to a run when a rule is undone.
+/// A step of a reduction that is undone when a run is lifted.
 #[derive(Clone, Debug)]
 pub enum Step {
-    /// This transition was fired at the very beginning, so many times.
+    /// The transition was fired `times` times in the initial marking.
     Begun { transition: u32, times: u64 },
-    /// In a dead marking these have yet to fire as often as they can: only the firings needed by what follows were kept.
+    /// In a dead marking the transitions `last` have yet to fire as often as possible: only firings that later ones
+    /// need were kept.
     Finished { last: Vec<u32>, around: Around },
-    /// Tokens move freely between these places, by transitions from one (position) to another.
+    /// Places were fused between which tokens move freely, by moves (position from, position to, transition).
     Fused { moves: Vec<(usize, usize, u32)>, around: Around },
-    /// This transition fires at the very beginning, often enough for all that follows.
+    /// The transition fires first, often enough for all that follows.
     Supplied { transition: u32, around: Around },
 }
 
-/// Some places and all transitions at them, as they were.
+/// Snapshot of some places and all transitions adjacent to them.
 #[derive(Clone, Debug, Default)]
 pub struct Around {
-    /// The tokens of each place at the beginning.
+    /// Initial number of tokens of each place.
     pub tokens: Vec<u64>,
-    /// Transitions, ascending, with what they need and put; places are positions in `tokens`.
+    /// Transitions, ascending, with their presets and postsets; places are positions in `tokens`.
     pub transitions: Vec<(u32, Row, Row)>,
 }
 
 impl Around {
-    /// Some places, ascending, and the transitions at them.
+    /// Takes a snapshot of places, given in ascending order, and of the transitions adjacent to them.
     pub fn of(draft: &Draft, places: &[u32]) -> Self {
         let mut transitions: Vec<u32> = places.iter().flat_map(|&place| draft.around(place)).collect();
         transitions.sort_unstable();
@@ -56,7 +57,7 @@ impl Around {
         }
     }
 
-    /// What a transition needs and puts.
+    /// Preset and postset of a transition, as far as they are among the places.
     pub fn get(&self, transition: u32) -> Option<(&Row, &Row)> {
         let position = self.transitions.binary_search_by_key(&transition, |&(id, ..)| id).ok()?;
         let (_, pre, post) = &self.transitions[position];
@@ -69,17 +70,17 @@ impl Log {
         Self { originals, ..Self::default() }
     }
 
-    /// Notes what the next transition stands for.
+    /// Logs the sequence of transitions that the next added transition stands for.
     pub fn word(&mut self, word: &[u32]) {
         self.words.push(word.into());
     }
 
-    /// Notes a step.
+    /// Logs a step.
     pub fn step(&mut self, step: Step) {
         self.steps.push((self.originals + self.words.len(), step));
     }
 
-    /// What a transition stands for; nothing if it is one of the original.
+    /// Sequence of transitions that a transition stands for; `None` for a transition of the original.
     pub fn meaning(&self, transition: u32) -> Option<&[u32]> {
         let position = (transition as usize).checked_sub(self.originals)?;
         self.words.get(position).map(|word| &**word)

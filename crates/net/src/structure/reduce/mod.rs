@@ -1,11 +1,12 @@
-//! Structural reductions: a smaller net that answers the same question.
+//! Structural reductions: a smaller net with the same answer to a property.
 //!
-//! [`reduce`] takes a net and what a property sees of it ([`Keep`]) and applies the rules of a catalogue ([`Rule`]) until none
-//! applies any more. Each rule has a file that says when it applies, which kind of property it keeps, and why. Whatever the rules
-//! do, a run of the reduced net can be lifted to a run of the original ([`Reduced::lift`]); a lifted run has been replayed.
+//! [`reduce`] takes a net and what a property observes of it ([`Keep`]) and applies the rules of a catalogue ([`Rule`])
+//! until none applies any more. The file of each rule says when it applies, which kind of property it keeps, and why.
+//! Whatever rules were applied, a run of the reduced net can be lifted to a run of the original ([`Reduced::lift`]); a
+//! lifted run has been replayed.
 //!
-//! A rule only looks at a place and its neighbours, or goes over the net once. Places wait in a queue for the rules of the
-//! first kind, and come back when something changes around them. The others are applied in rounds.
+//! Local rules look at a place and its neighbours only; global rules go over the net once. Places wait in a queue for
+//! the local rules, and return to it when something changes around them. Global rules are applied in rounds.
 //!
 //! ```
 //! use petril_net::net::Builder;
@@ -51,58 +52,58 @@ use std::sync::atomic::AtomicBool;
 use crate::net::{Net, PlaceId, TransitionId};
 use draft::{Draft, MANY};
 
-/// The kind of a property.
+/// Kind of a property: how much of the behaviour a reduction must keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
-    /// What the kept places can have at the same time: the reachable markings, of which only the kept places are seen. This
-    /// is enough for `EF` and `AG` of formulas about them, and for upper bounds of their tokens.
+    /// The reachable markings, projected to the kept places. Enough for `EF` and `AG` of formulas about these, and for
+    /// upper bounds on their tokens.
     Reachability,
-    /// The same, and besides what the kept places can have in dead markings. This is enough for the question whether there is
-    /// a deadlock, and for `EF (deadlock & f)` and `AG (deadlock -> f)`; not for `EF (!deadlock & f)`.
+    /// The reachable markings and the reachable dead markings, both projected to the kept places. Enough for
+    /// deadlock-freedom, and for `EF (deadlock & f)` and `AG (deadlock -> f)`; not for `EF (!deadlock & f)`.
     Deadlock,
-    /// All that can be said about markings and the steps between them, as far as kept places are seen: the graphs are bisimilar.
-    /// This is enough for any formula of CTL or LTL, with the next-time operator, and with deadlocks. Few rules keep so much.
+    /// Bisimilarity of the reachability graphs, as far as the kept places show. Enough for any formula of CTL or LTL,
+    /// including the next-time operator and deadlocks. Few rules keep this.
     Paths,
 }
 
-/// What a property sees.
+/// Parts of a net that a property observes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keep {
-    /// Its kind.
+    /// Kind of the property.
     pub property: Property,
-    /// The places whose tokens it counts.
+    /// Places whose tokens the property counts.
     pub places: Vec<PlaceId>,
-    /// The transitions of which it asks whether they are enabled. The places of their presets are kept.
+    /// Transitions whose enabledness the property observes. The places of their presets are kept.
     pub transitions: Vec<TransitionId>,
 }
 
 impl Keep {
-    /// A property of this kind that sees no place and no transition.
+    /// Returns a property of a kind that observes no place and no transition.
     #[must_use]
     pub fn nothing(property: Property) -> Self {
         Self { property, places: Vec::new(), transitions: Vec::new() }
     }
 }
 
-/// What may be done.
+/// Options of a reduction.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The rules that may be applied.
+    /// Rules that may be applied.
     pub rules: Vec<Rule>,
-    /// How often those that go over the whole net may do so.
+    /// Maximum number of rounds of the global rules.
     pub rounds: usize,
-    /// About how many nodes and arcs may be looked at before no more rules are applied: a second is some ten million.
+    /// Approximate number of nodes and arcs to look at before no more rules are applied: some ten million per second.
     pub work: u64,
 }
 
 impl Default for Options {
-    /// All rules, and enough work for nets of hundreds of thousands of nodes.
+    /// Options with all rules, and enough work for nets of hundreds of thousands of nodes.
     fn default() -> Self {
         Self { rules: Rule::ALL.to_vec(), rounds: 64, work: 200_000_000 }
     }
 }
 
-/// Reduces a net by all rules that keep what is asked for.
+/// Reduces a net by all rules that keep the property.
 #[must_use]
 pub fn reduce<'n>(net: &'n Net, keep: &Keep) -> Reduced<'n> {
     reduce_with(net, keep, &Options::default())
@@ -114,7 +115,7 @@ pub fn reduce_with<'n>(net: &'n Net, keep: &Keep, options: &Options) -> Reduced<
     reduce_until(net, keep, options, &AtomicBool::new(false))
 }
 
-/// Reduces a net within limits, and not further once `stopping` is set.
+/// Reduces a net within limits, until `stopping` is set.
 #[must_use]
 pub fn reduce_until<'n>(net: &'n Net, keep: &Keep, options: &Options, stopping: &AtomicBool) -> Reduced<'n> {
     let Some(mut draft) = Draft::of(net, keep, options, stopping) else {
@@ -134,7 +135,7 @@ pub fn reduce_until<'n>(net: &'n Net, keep: &Keep, options: &Options, stopping: 
     Reduced::of(net, keep.property, draft)
 }
 
-/// The rules that go over the whole net.
+/// Applies the global rules.
 fn everywhere(draft: &mut Draft) {
     type Apply = fn(&mut Draft);
     const RULES: [(Rule, Apply); 9] = [
@@ -155,7 +156,7 @@ fn everywhere(draft: &mut Draft) {
     }
 }
 
-/// The rules that look at a place and its neighbours: the first that applies.
+/// Applies the first local rule that applies to a place.
 fn around(draft: &mut Draft, place: u32) {
     let agglomerates = draft.property != Property::Paths;
     let allows = |draft: &Draft, rule| draft.allows(rule);

@@ -1,4 +1,4 @@
-//! What a reduction leaves.
+//! Result of a reduction.
 
 use std::collections::BTreeSet;
 
@@ -8,45 +8,45 @@ use super::log::Log;
 use super::{Property, Rule};
 use crate::net::{Builder, Net, PlaceId, TransitionId};
 
-/// How large a net is.
+/// Size of a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
-    /// Places.
+    /// Number of places.
     pub places: usize,
-    /// Transitions.
+    /// Number of transitions.
     pub transitions: usize,
-    /// Arcs, a read arc counting as two.
+    /// Number of arcs; a read arc counts as two.
     pub arcs: usize,
 }
 
 impl Size {
-    /// The size of a net.
+    /// Measures a net.
     #[must_use]
     pub fn of(net: &Net) -> Self {
         Self { places: net.places().len(), transitions: net.transitions().len(), arcs: net.arc_count() }
     }
 }
 
-/// A reduced net, and what it says about the original.
+/// A reduced net, and its relation to the original.
 #[derive(Clone, Debug)]
 pub struct Reduced<'n> {
-    /// The reduced net. A node that the original has, too, has the same name.
+    /// The reduced net. Nodes that the original also has keep their names.
     pub net: Net,
-    /// How often each rule was applied, of those that were.
+    /// Number of applications of each rule that was applied.
     pub applied: Vec<(Rule, usize)>,
     pub(super) original: &'n Net,
     pub(super) property: Property,
-    /// The kept places, in the original.
+    /// The kept places, as places of the original.
     pub(super) kept: Vec<PlaceId>,
     places: Vec<Option<PlaceId>>,
     transitions: Vec<Option<TransitionId>>,
-    /// For each transition its number in the log.
+    /// Number of each transition in the log.
     pub(super) numbers: Vec<u32>,
     pub(super) log: Log,
 }
 
 impl<'n> Reduced<'n> {
-    /// A net that nothing was done to.
+    /// Returns the original, without any reduction.
     pub(super) fn unchanged(original: &'n Net, property: Property) -> Self {
         let numbers = 0..original.transitions().len() as u32;
         Self {
@@ -62,7 +62,7 @@ impl<'n> Reduced<'n> {
         }
     }
 
-    /// The net of a draft.
+    /// Makes the reduced net of a draft.
     pub(super) fn of(original: &'n Net, property: Property, draft: Draft) -> Self {
         let Draft { places, transitions, log, applied, .. } = draft;
         let mut builder = Builder::new(original.name());
@@ -100,31 +100,32 @@ impl<'n> Reduced<'n> {
         }
     }
 
-    /// A place of the original in the reduced net. A kept place is always there, with the same tokens.
+    /// Finds a place of the original in the reduced net. A kept place is always there, with the same tokens.
     #[must_use]
     pub fn place(&self, original: PlaceId) -> Option<PlaceId> {
         self.places[original.index()]
     }
 
-    /// A transition of the original in the reduced net, if it is still there. A kept transition that is there is enabled when
-    /// it is in the original. One that is gone is enabled in the original when its preset, which is kept, has the tokens.
+    /// Finds a transition of the original in the reduced net, if it is still there. A kept transition that is there is
+    /// enabled if and only if it is in the original. One that was removed is enabled in the original if its preset,
+    /// which is kept, has the tokens.
     #[must_use]
     pub fn transition(&self, original: TransitionId) -> Option<TransitionId> {
         self.transitions[original.index()]
     }
 
-    /// A run of the original for a run of the reduced net, both from the initial marking. The kept places have the same tokens
-    /// at the end; if deadlocks are kept and the last marking is dead, so is that of the original. It has been replayed on the
-    /// original by the plain firing rule.
+    /// Lifts a run of the reduced net to a run of the original, both from the initial marking. The kept places have the
+    /// same tokens at the end; if deadlocks are kept and the last marking is dead, so is that of the original. The
+    /// lifted run has been replayed on the original by the plain firing rule.
     ///
     /// # Errors
-    /// See [`LiftError`]. In particular, a run may stand for one too long to be of use.
+    /// See [`LiftError`]. In particular, the lifted run may be too long.
     pub fn lift(&self, run: &[TransitionId]) -> Result<Vec<TransitionId>, LiftError> {
         lift(self, run)
     }
 }
 
-/// For each transition of a log, the first and the last of the originals it stands for, if there are any.
+/// For each transition of a log, the first and the last original transition it stands for, if there are any.
 fn ends(log: &Log) -> Vec<Option<(u32, u32)>> {
     let mut ends: Vec<Option<(u32, u32)>> = (0..log.originals as u32).map(|id| Some((id, id))).collect();
     for word in &log.words {
@@ -135,7 +136,8 @@ fn ends(log: &Log) -> Vec<Option<(u32, u32)>> {
     ends
 }
 
-/// The name of a transition: its own, or that of the first and that of the last of those it stands for; and a number if need be.
+/// Name of a transition: its own, or those of the first and the last transition it stands for, with a number if not
+/// unique.
 fn name(net: &Net, ends: Option<(u32, u32)>, taken: &mut BTreeSet<String>) -> String {
     let original = |id: u32| net.transition(TransitionId::at(id as usize)).name;
     let name = match ends {

@@ -1,40 +1,41 @@
-//! The catalogue of rules, by name.
+//! The catalogue of reduction rules, by name.
 
-/// A rule of the catalogue. The file that has the rule says when it applies, and why it keeps what it keeps.
+/// A reduction rule. Its file says when it applies, and why it keeps what it keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Rule {
-    /// A transition that can never fire goes.
+    /// Removes transitions that can never fire.
     Dead,
-    /// A place that never holds a transition back goes; if it is kept, the arcs that only test it go.
+    /// Removes places that never disable a transition; of kept ones, only the arcs that test them.
     Unrestricting,
-    /// Weights and tokens of a place are divided by what divides all of them.
+    /// Divides the weights and tokens of a place by the greatest common divisor of the weights.
     Scaled,
-    /// A place goes that has enough tokens whenever another one has.
+    /// Removes places that have enough tokens whenever another one has (implicit places).
     Implied,
-    /// A transition goes if another does the same and needs no more.
+    /// Removes transitions if another one has the same effect and needs no more tokens.
     Dominated,
-    /// A transition goes that changes nothing.
+    /// Removes transitions without effect.
     Idle,
-    /// A transition goes if two others, one after the other, do the same and need no more.
+    /// Removes transitions if two others, one after the other, have the same effect and need no more tokens.
     Composed,
-    /// All goes on which what is kept does not depend.
+    /// Removes transitions on which the kept places do not depend (slicing).
     Irrelevant,
-    /// A transition that can always fire is noted, so that deadlocks need no further thought.
+    /// Records that a transition can always fire, so that there are no deadlocks.
     Alive,
-    /// What follows at once is fired together with what comes before it.
+    /// Fuses transitions that only need tokens of one place with those that put them there.
     PostAgglomeration,
-    /// What prepares one place, undisturbed, is fired together with what comes after it.
+    /// Fuses transitions that only put tokens on one place, and are alone in needing their inputs, with those that take
+    /// the tokens.
     PreAgglomeration,
-    /// What prepares one place is fired together with what comes after it.
+    /// Fuses transitions that only put tokens on one place with those that take the tokens.
     FreeAgglomeration,
-    /// Places between which tokens move freely, round in a circle, become one.
+    /// Fuses places that are strongly connected by transitions that only move a token.
     Fusion,
-    /// Places that can be filled at the beginning as much as one likes go.
+    /// Removes places that can initially be filled with any number of tokens.
     Supply,
 }
 
 impl Rule {
-    /// Every rule.
+    /// All rules.
     pub const ALL: [Self; 14] = [
         Self::Dead,
         Self::Unrestricting,
@@ -52,7 +53,7 @@ impl Rule {
         Self::Supply,
     ];
 
-    /// Its name, for figures.
+    /// Name of the rule in reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,9 +1,9 @@
 //! Common factors of the weights around a place.
 //!
-//! If a number g divides every weight at a place that is not kept, then with x tokens on it the same is possible as with x / g
-//! (rounded down) tokens and all these weights divided by g.
+//! If a number g divides every weight at a place that is not kept, then x tokens on it enable the same as x / g tokens
+//! (rounded down) with all these weights divided by g.
 //!
-//! Keeps everything: markings are renamed.
+//! Keeps everything: only the tokens of the place change.
 //!
 //! Source: Thierry-Mieg 2020, "Structural reductions revisited"; it follows from the firing rule.
 

@@ -1,9 +1,10 @@
-//! Places that can be filled at the beginning as much as one likes.
+//! Places that can initially be filled with any number of tokens.
 //!
-//! A transition is enabled at the beginning, takes nothing for good, and changes no kept place. So before anything else happens, it
-//! can fire as often as one likes, and the places it adds tokens to never run short. They go, and so does the transition.
+//! A transition is enabled initially, takes no tokens without putting them back, and changes no kept place. So it can
+//! fire any number of times first, and the places to which it adds tokens never lack any. They are removed, and so is
+//! the transition.
 //!
-//! Keeps what is reachable. Where deadlocks matter, [`super::alive`] comes before it.
+//! Keeps reachability. If deadlocks matter, [`super::alive`] comes first.
 //!
 //! Source: source transitions, Murata 1989; here by the monotony of the firing rule.
 

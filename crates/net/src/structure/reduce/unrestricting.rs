@@ -1,11 +1,11 @@
-//! Places that never hold a transition back.
+//! Redundant places: those that never disable a transition.
 //!
-//! No transition takes tokens from the place for good, and at the beginning there are as many as any transition needs. So each
-//! transition that needs some always finds them. This is so for places that only receive, for places whose tokens never change,
-//! and for places without arcs. If the place is not kept, it goes. If it is, it goes on counting, but nothing needs it any
-//! more.
+//! No transition takes tokens from the place without putting them back, and initially there are as many as any
+//! transition needs. So each transition that needs tokens of the place always has them. Examples are places that only
+//! receive tokens, places whose tokens never change, and places without arcs. A place that is not kept is removed. A
+//! kept place keeps counting, but no transition needs it any more.
 //!
-//! Keeps everything: the graph of markings stays as it is, but for the tokens of a place that nobody looks at.
+//! Keeps everything: the reachability graph is unchanged except for the tokens of a place that is not observed.
 //!
 //! Source: redundant places, Berthelot 1987, "Transformations and decompositions of nets".
 

@@ -1,31 +1,31 @@
-//! The inverse of a basis: triangular factors, and a product of elementary matrices for the columns replaced since.
+//! The inverse of a basis: LU factors, and a product of elementary (eta) matrices for the columns replaced since.
 //!
-//! Each column stands for a row: the one it was pivoted in. Rows that have no column of their own have a unit vector.
+//! Each column belongs to the row in which it was pivoted. Rows without a column have a unit vector.
 
-/// A column of a factor, or one that replaced another: its entry in its own row, and those in other rows.
+/// A column of a factor, or an eta column: its entry in its own row, and those in other rows.
 struct Column {
     row: usize,
     pivot: f64,
     others: Vec<(u32, f64)>,
 }
 
-/// What of a number is lost in computation.
+/// Magnitude below which a computed number counts as 0.
 const DUST: f64 = 1e-11;
 
-/// The inverse of a matrix that began as the identity and had columns entered, then replaced.
+/// Inverse of a matrix that began as the identity and had columns entered, then replaced.
 #[derive(Default)]
 pub struct Inverse {
-    /// In the order of their entering: what each pivot subtracts from rows without one.
+    /// Columns of L in order of entering: multiples that each pivot subtracts from rows without a pivot.
     lower: Vec<Column>,
-    /// In the same order: columns with entries in rows that had a pivot before.
+    /// Columns of U in the same order: entries in rows that had a pivot before.
     upper: Vec<Column>,
     replaced: Vec<Column>,
-    /// Numbers kept.
+    /// Number of entries stored.
     size: usize,
 }
 
 impl Inverse {
-    /// A column as it is when it is to be entered, in place. `touched` are the rows where it may not be 0.
+    /// Reduces a column by L in place, before it is entered. `touched` are the rows with entries that may not be 0.
     pub fn reduce(&self, column: &mut [f64], touched: &mut Vec<u32>) {
         for factor in &self.lower {
             let value = column[factor.row];
@@ -40,7 +40,8 @@ impl Inverse {
         touched.dedup();
     }
 
-    /// Enters a column that has been reduced, with its pivot in `row`; `is_free` are rows without a pivot that shall have one.
+    /// Enters a reduced column with its pivot in `row`; `is_free` marks the rows that have no pivot yet and are to have
+    /// one.
     pub fn enter(&mut self, row: usize, column: &[f64], touched: &[u32], is_free: &[bool]) {
         let pivot = column[row];
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
@@ -56,7 +57,7 @@ impl Inverse {
         self.upper.push(Column { row, pivot, others: upper });
     }
 
-    /// Replaces what stands for a row by a column, which has gone through [`Self::times_column`] already.
+    /// Replaces the column of a row by another one, to which [`Self::times_column`] has been applied.
     pub fn replace(&mut self, row: usize, column: &[f64]) {
         let others: Vec<(u32, f64)> = column
             .iter()
@@ -68,7 +69,7 @@ impl Inverse {
         self.replaced.push(Column { row, pivot: column[row], others });
     }
 
-    /// The inverse times a column, in place.
+    /// Multiplies the inverse by a column, in place.
     pub fn times_column(&self, column: &mut [f64]) {
         for factor in &self.lower {
             let value = column[factor.row];
@@ -86,7 +87,7 @@ impl Inverse {
         }
     }
 
-    /// A row times the inverse, in place.
+    /// Multiplies a row by the inverse, in place.
     pub fn times_row(&self, row: &mut [f64]) {
         for factor in self.replaced.iter().rev().chain(&self.upper).chain(self.lower.iter().rev()) {
             let sum: f64 = factor.others.iter().map(|&(i, entry)| entry * row[i as usize]).sum();
@@ -95,12 +96,12 @@ impl Inverse {
         }
     }
 
-    /// How many columns were replaced since the matrix was taken apart.
+    /// Number of columns replaced since the matrix was factored.
     pub fn replaced(&self) -> usize {
         self.replaced.len()
     }
 
-    /// Numbers kept: what a product takes.
+    /// Number of entries stored: the cost of a product.
     pub fn size(&self) -> usize {
         self.size
     }

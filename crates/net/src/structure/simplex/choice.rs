@@ -1,11 +1,12 @@
-//! Which row is mended, and which variable enters the basis for it.
+//! Pivoting rules: the leaving row and the entering variable.
 
 use super::TOLERANCE;
 
-/// Entries that are too small to divide by.
+/// Magnitude below which an entry is too small to divide by.
 const SMALL: f64 = 1e-7;
 
-/// The row whose value is negative and farthest from 0, measured by the lengths of the rows of the inverse: dual steepest edge.
+/// Chooses the leaving row by dual steepest edge: the negative value that is largest relative to the norm of its row of
+/// the inverse.
 pub fn row(values: &[f64], lengths: &[f64]) -> Option<usize> {
     let mut best = None;
     let mut most = 0.0;
@@ -20,8 +21,8 @@ pub fn row(values: &[f64], lengths: &[f64]) -> Option<usize> {
     best
 }
 
-/// The variable that may enter: of (variable, entry in the row, reduced cost), the one that keeps all reduced costs from becoming
-/// negative, but for a tolerance that is used to find a large entry (Harris 1973).
+/// Chooses the entering variable among (variable, entry in the row, reduced cost) by Harris's ratio test (1973): no
+/// reduced cost becomes negative by more than a tolerance, which is used to find a large entry.
 pub fn column(candidates: impl Iterator<Item = (usize, f64, f64)> + Clone) -> Option<usize> {
     let fitting = candidates.filter(|&(_, entry, _)| entry < -SMALL);
     let bound = |(_, entry, cost): (usize, f64, f64)| (cost.max(0.0) + TOLERANCE * 0.01) / -entry;

@@ -1,7 +1,7 @@
-//! In which order a matrix is best taken apart.
+//! Pivot order for factoring a sparse matrix.
 
-/// An order in which columns are best entered, and for most of them in which row: those that a row has alone first, since
-/// they change no other; those with one row left to them last, since then nothing is changed by them.
+/// Order in which to enter columns, for most of them with the row of the pivot: row singletons first, since they change
+/// no other column; column singletons last, since they change nothing then.
 pub fn triangular(columns: &[&[(u32, f64)]], is_free: &[bool]) -> Vec<(usize, Option<usize>)> {
     let mut rows: Vec<Vec<usize>> = vec![Vec::new(); is_free.len()];
     let free = |column: usize| columns[column].iter().map(|&(row, _)| row as usize).filter(|&row| is_free[row]);

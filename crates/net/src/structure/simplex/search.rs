@@ -1,4 +1,4 @@
-//! The dual simplex algorithm, revised: the inverse of the basis is kept as a product, rows are computed when they are needed.
+//! The revised dual simplex algorithm: the inverse of the basis is kept as a product, rows are computed when needed.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -6,13 +6,13 @@ use super::basis::Inverse;
 use super::order::triangular;
 use super::{Program, Solved, TOLERANCE, choice};
 
-/// Columns replaced before the inverse is made anew.
+/// Number of columns replaced before the basis is factored anew.
 const REPLACED: usize = 64;
 
-/// Solves a program in at most so many elementary steps, unless `stopping` is set meanwhile.
+/// Solves a program in at most `steps` elementary steps, unless `stopping` is set meanwhile.
 pub fn minimise(program: &Program, steps: u64, stopping: &AtomicBool) -> Solved {
     let mut search = Search::new(program, steps, stopping);
-    // Once more with a fresh inverse before anything is said, since errors add up.
+    // An answer is given only with a fresh inverse, since errors add up.
     let mut fresh = true;
     loop {
         if search.inverse.replaced() >= REPLACED {
@@ -52,23 +52,23 @@ pub fn minimise(program: &Program, steps: u64, stopping: &AtomicBool) -> Solved 
     }
 }
 
-/// The variables are those of the program, then for each row what it has to spare.
+/// State of the algorithm. The variables are those of the program, then a slack variable for each row.
 struct Search<'p> {
     program: &'p Program,
-    /// The program by columns.
+    /// Columns of the program.
     columns: Vec<Vec<(u32, f64)>>,
-    /// The variable that each row says the value of.
+    /// Basic variable of each row.
     heads: Vec<usize>,
     is_basic: Vec<bool>,
     inverse: Inverse,
-    /// The value of each row's variable.
+    /// Value of each row's basic variable.
     values: Vec<f64>,
-    /// The squared length of each row of the inverse, more or less.
+    /// Approximate squared norm of each row of the inverse.
     lengths: Vec<f64>,
-    /// Costs, raised where they would have become negative.
+    /// Costs, raised where a reduced cost would have become negative.
     costs: Vec<f64>,
     reduced: Vec<f64>,
-    /// The row of the inverse that is looked at, and what the variables not in the basis have there.
+    /// The current row of the inverse, followed by the entries of the non-basic variables in it.
     row: Vec<f64>,
     entries: Vec<f64>,
     touched: Vec<usize>,
@@ -110,7 +110,7 @@ impl<'p> Search<'p> {
         self.program.costs.len()
     }
 
-    /// Whether no steps are left once so many more are spent, or none are wanted.
+    /// Whether no steps are left after `spent` more, or the search was cancelled.
     fn is_over(&self, spent: usize) -> bool {
         self.steps <= spent as u64 || self.stopping.load(Ordering::Relaxed)
     }
@@ -119,7 +119,7 @@ impl<'p> Search<'p> {
         self.steps = self.steps.saturating_sub(steps as u64);
     }
 
-    /// Computes a row of the inverse, and its product with the columns not in the basis.
+    /// Computes a row of the inverse, and its product with the non-basic columns.
     fn look_at(&mut self, row: usize) {
         self.row.fill(0.0);
         self.row[row] = 1.0;
@@ -151,7 +151,8 @@ impl<'p> Search<'p> {
         self.touched.iter().map(|&variable| (variable, self.entries[variable], self.reduced[variable]))
     }
 
-    /// Lets a variable enter in a row; false, and nothing done, if the entry computed in two ways differs too much.
+    /// Pivots: lets a variable enter in a row. Returns false and does nothing if the pivot computed in two ways differs
+    /// too much.
     fn pivot(&mut self, row: usize, entering: usize) -> bool {
         let mut column = vec![0.0; self.heads.len()];
         match entering.checked_sub(self.variables()) {
@@ -195,8 +196,8 @@ impl<'p> Search<'p> {
         true
     }
 
-    /// Makes the inverse anew from the basis, and computes all values from it. A column that depends on others leaves. If that
-    /// takes more steps than are left, none are left, and nothing can be read from the search any more.
+    /// Factors the basis anew, and recomputes all values. A column that depends on others leaves the basis. If this
+    /// takes more steps than are left, none are left, and the state must not be used any more.
     fn refactor(&mut self) {
         let variables = self.variables();
         let mut length_of = vec![1.0; self.is_basic.len()];
@@ -247,7 +248,7 @@ impl<'p> Search<'p> {
         self.spend(spent + 4 * self.inverse.size());
     }
 
-    /// Computes all reduced costs; where one would be negative the cost is raised.
+    /// Computes all reduced costs; where one would be negative, the cost is raised.
     fn price(&mut self) {
         let variables = self.variables();
         let mut prices: Vec<f64> = self.heads.iter().map(|&variable| self.costs[variable]).collect();
@@ -267,7 +268,7 @@ impl<'p> Search<'p> {
         self.spend(2 * self.is_basic.len());
     }
 
-    /// The values of the program's variables.
+    /// Values of the program's variables.
     fn solution(&self) -> Vec<f64> {
         let mut solution = vec![0.0; self.variables()];
         for (&variable, &value) in self.heads.iter().zip(&self.values) {

@@ -1,30 +1,31 @@
-//! How many tokens places have together at most, with the proof.
+//! Upper bounds on sums of tokens, with proof.
 
 use super::certificate::{initially, never_increases};
 use crate::net::{Net, PlaceId};
 
-/// An upper bound on the tokens of some places together.
+/// An upper bound on the total number of tokens of some places.
 ///
-/// The proof is a weighted sum that no firing increases, in which each of the places counts at least `unit` times: in no
-/// reachable marking do they have more tokens than the sum initially is worth, divided by `unit`.
+/// The proof is a weighted sum that no firing increases, in which each of the places has a weight of at least `unit`:
+/// in every reachable marking they have at most as many tokens as the initial value of the sum divided by `unit`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bound {
-    /// They never have more tokens than this.
+    /// Upper bound on the number of tokens.
     pub most: u64,
-    /// Places with weights, ascending.
+    /// Weights of the sum: places, ascending, with their weights.
     pub weights: Vec<(PlaceId, i128)>,
-    /// What one of the tokens counts at least.
+    /// Minimum weight of one of the places, for each time it is listed.
     pub unit: i128,
 }
 
 impl Bound {
-    /// Whether this proves that the places, each as often as it is listed, never have more than `most` tokens together.
+    /// Whether the proof is valid: the places, each counted as often as it is listed, never have more than `most`
+    /// tokens.
     #[must_use]
     pub fn verify(&self, net: &Net, places: &[PlaceId]) -> bool {
         self.value(net, places) == Some(self.most)
     }
 
-    /// What the proof proves.
+    /// Bound that the weights prove, if they prove one.
     pub(super) fn value(&self, net: &Net, places: &[PlaceId]) -> Option<u64> {
         let mut weights = vec![0_i128; net.places().len()];
         for &(place, weight) in &self.weights {

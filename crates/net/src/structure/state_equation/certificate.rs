@@ -1,24 +1,24 @@
-//! Proofs, in whole numbers, that no reachable marking satisfies some constraints. Verifying one needs the net and the
-//! constraints and nothing else; this code has no part in finding them.
+//! Proofs, in integers, that no reachable marking satisfies some constraints. Verifying one needs only the net and the
+//! constraints; the code that verifies has no part in finding them.
 
 use super::{Constraint, Relation};
 use crate::net::{Net, PlaceId};
 
-/// A contradiction between constraints and the firing rule.
+/// Certificate of a contradiction between constraints and the state equation.
 ///
-/// The constraints, so many times each, say that some weighted sum of tokens is at least a number. With more tokens of some
-/// places added, which are not negative, the sum is one that no firing increases; and initially it is less than that number.
+/// The constraints, with multipliers, imply that a weighted sum of tokens is at least a number. With non-negative
+/// multiples of tokens added, no firing increases the sum, and its initial value is less than that number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certificate {
-    /// How often each constraint is taken: not negative for one that says at least, not positive for one that says at most.
+    /// Multiplier of each constraint: not negative for [`Relation::AtLeast`], not positive for [`Relation::AtMost`].
     pub constraints: Vec<i128>,
-    /// How often the tokens of places are added, positive.
+    /// Positive multiples of the tokens of places that are added.
     pub places: Vec<(PlaceId, i128)>,
 }
 
 impl Certificate {
-    /// Whether this proves that no reachable marking of the net satisfies all of the constraints. Numbers too large for exact
-    /// arithmetic prove nothing.
+    /// Whether the certificate proves that no reachable marking of the net satisfies all of the constraints. Numbers
+    /// too large for exact arithmetic prove nothing.
     #[must_use]
     pub fn verify(&self, net: &Net, constraints: &[Constraint]) -> bool {
         self.constraints.len() == constraints.len() && self.contradicts(net, constraints).unwrap_or(false)
@@ -70,7 +70,7 @@ pub(super) fn never_increases(net: &Net, weights: &[i128]) -> Option<bool> {
     Some(true)
 }
 
-/// A weighted sum of the tokens in the initial marking.
+/// Weighted sum of the tokens in the initial marking.
 pub(super) fn initially(net: &Net, weights: &[i128]) -> Option<i128> {
     net.places()
         .zip(weights)

@@ -2,30 +2,30 @@
 
 use crate::net::{PlaceId, Tokens};
 
-/// How a sum compares with a value.
+/// Relation between a sum and a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Relation {
     /// At least the value.
     AtLeast,
     /// At most the value.
     AtMost,
-    /// The value.
+    /// Equal to the value.
     Equal,
 }
 
-/// A sum of places with coefficients, compared with a value.
+/// Linear constraint: a sum of tokens with coefficients, compared with a value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Constraint {
-    /// The places with how often the tokens of each count. Places that occur several times add up.
+    /// Places with their coefficients. Coefficients of a place that occurs several times add up.
     pub terms: Vec<(PlaceId, i64)>,
-    /// How the sum compares.
+    /// Relation between the sum and `value`.
     pub relation: Relation,
-    /// What it is compared with.
+    /// Right-hand side.
     pub value: i64,
 }
 
 impl Constraint {
-    /// Whether a marking satisfies it.
+    /// Whether a marking satisfies the constraint.
     #[must_use]
     pub fn is_satisfied(&self, tokens: &Tokens) -> bool {
         let sum = self

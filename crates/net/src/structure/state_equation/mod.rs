@@ -1,8 +1,9 @@
-//! The state equation (marking equation): every reachable marking m is m₀ + C·x, where C is the incidence matrix and x ≥ 0 counts
-//! firings, and m ≥ 0. Where constraints on m contradict that, no reachable marking satisfies them; the converse does not hold.
+//! The state equation (marking equation): every reachable marking m is m₀ + C·x, where C is the incidence matrix, x ≥ 0
+//! counts firings, and m ≥ 0. If constraints on m contradict this, no reachable marking satisfies them; the converse
+//! does not hold.
 //!
-//! A linear program finds the contradiction in floating point. It is then rounded to whole numbers and checked exactly
-//! ([`Certificate::verify`], [`Bound::verify`]). What cannot be checked is not said.
+//! A linear program finds the contradiction in floating point, which is then rounded to integers and verified exactly
+//! ([`Certificate::verify`], [`Bound::verify`]). Only verified results are reported.
 //!
 //! ```
 //! use petril_net::net::Builder;

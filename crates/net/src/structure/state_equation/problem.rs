@@ -8,14 +8,14 @@ use crate::structure::incidence::Incidence;
 use crate::structure::rounding::{proportions, whole};
 use crate::structure::simplex::{Program, Solved, minimise, scattered};
 
-/// What the state equation says to some constraints.
+/// Result of checking constraints against the state equation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// No reachable marking satisfies all of them; the certificate has been verified.
+    /// No reachable marking satisfies all constraints; the certificate has been verified.
     Infeasible(Certificate),
-    /// These numbers of firings satisfy the equation and the constraints, as far as floating point tells. That proves nothing.
+    /// Numbers of firings that satisfy the equation and the constraints in floating point. Proves nothing.
     Feasible(Vec<f64>),
-    /// The steps did not suffice, or no exact certificate was found.
+    /// No answer: the steps were used up, or no exact certificate was found.
     Unknown,
 }
 
@@ -27,24 +27,24 @@ pub struct Problem<'n> {
 }
 
 impl<'n> Problem<'n> {
-    /// The equation of a net.
+    /// Sets up the state equation of a net.
     #[must_use]
     pub fn new(net: &'n Net) -> Self {
         Self { net, incidence: Incidence::of(net) }
     }
 
-    /// Whether constraints, all of them together, contradict the equation. Firings may be fractions. It takes at most about
-    /// so many elementary steps, some nanoseconds each.
+    /// Checks whether constraints together contradict the equation; numbers of firings may be fractions. Takes at most
+    /// about `steps` elementary steps, some nanoseconds each.
     #[must_use]
     pub fn solve(&self, constraints: &[Constraint], steps: u64) -> Outcome {
         self.solve_until(constraints, steps, &AtomicBool::new(false))
     }
 
-    /// As [`Self::solve`]. Unknown if `stopping` is set meanwhile.
+    /// Checks constraints as [`Self::solve`] does. Unknown if `stopping` is set meanwhile.
     #[must_use]
     pub fn solve_until(&self, constraints: &[Constraint], steps: u64, stopping: &AtomicBool) -> Outcome {
         let mut program = self.program();
-        // Of each row behind those of the places, the constraint it is about and its sign.
+        // For each row after those of the places, its constraint and sign.
         let mut origins: Vec<(usize, i128)> = Vec::new();
         for (position, constraint) in constraints.iter().enumerate() {
             let signs: &[i128] = match constraint.relation {
@@ -70,12 +70,12 @@ impl<'n> Problem<'n> {
         }
     }
 
-    /// The most tokens that places have together, each as often as it is listed, if the equation limits them. It takes at most
-    /// about so many elementary steps.
+    /// Upper bound on the total number of tokens of places, each counted as often as it is listed, if the equation
+    /// implies one. Takes at most about `steps` elementary steps.
     #[must_use]
     pub fn bound(&self, places: &[PlaceId], steps: u64) -> Option<Bound> {
-        // Sought are weights: one for each place listed, and more, as cheap as the initial marking allows, such that no
-        // firing increases the weighted sum.
+        // The unknowns are weights in addition to 1 for each place listed, as cheap as the initial marking allows, such
+        // that no firing increases the weighted sum.
         let mut least = vec![0.0; self.net.transitions().len()];
         for &place in places {
             self.incidence.of_place(place).iter().for_each(|&(id, change)| least[id as usize] += change as f64);
@@ -99,7 +99,7 @@ impl<'n> Problem<'n> {
         bound.verify(self.net, places).then_some(bound)
     }
 
-    /// The equation: no place has fewer than no tokens, and few firings are better than many.
+    /// The equation as a program: no place has a negative number of tokens, and the number of firings is minimised.
     fn program(&self) -> Program {
         let row = |id| self.incidence.of_place(id).iter().map(|&(id, change)| (id, change as f64)).collect();
         Program {
@@ -109,7 +109,7 @@ impl<'n> Problem<'n> {
         }
     }
 
-    /// How firings change the sum of a constraint, and how far its value is from the initial sum.
+    /// Change of a constraint's sum by each firing, and the difference between its value and the initial sum.
     fn row(&self, constraint: &Constraint) -> (Vec<(u32, f64)>, f64) {
         let mut changes: Vec<(u32, f64)> = Vec::new();
         let mut least = constraint.value as f64;
