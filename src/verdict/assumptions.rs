@@ -1,4 +1,4 @@
-//! Under which assumptions the verdicts are proofs, in words.
+//! Assumptions the verdicts rest on, in words.
 
 use super::Options;
 use crate::flat::Hazard;
@@ -6,7 +6,7 @@ use crate::logic::{Assumption, View};
 use crate::semantics::{Role, VarId};
 use crate::translate::System;
 
-/// The assumptions about a system that is checked in this way.
+/// Lists the assumptions for a system checked with these options; `timed` says that requirements speak of time.
 pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<String> {
     let program = &system.program;
     let names =
@@ -74,7 +74,7 @@ pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<Strin
     assumptions
 }
 
-/// What is assumed of numbers that do not fit, and of division by zero.
+/// Assumptions about overflow and division by zero.
 fn arithmetic(system: &System, options: &Options) -> Vec<String> {
     let hazards = system.program.hazards();
     let tolerated = |hazard| match hazard {
