@@ -28,7 +28,7 @@ use super::escape::{APART, Alphabet, escaped};
 use super::text;
 use crate::net::Net;
 
-/// Words of nets, of the functions of stochastic nets, and of the tools' formulas; in small letters.
+/// Keywords of nets, of the functions of stochastic nets, and of the tools' formulas, in lower case.
 const RESERVED: [&str; 62] = [
     "abs",
     "acos",
@@ -94,7 +94,7 @@ const RESERVED: [&str; 62] = [
     "xspn",
 ];
 
-/// ANDL's names. All words of one or two capital letters are left to the operators of temporal logic.
+/// Names in ANDL. Words of one or two capital letters are reserved for temporal operators.
 pub(super) const NAMES: Alphabet = Alphabet {
     allows: |c| c.is_ascii_alphanumeric() || c == '_',
     begins: |c| c.is_ascii_alphabetic(),
@@ -104,8 +104,8 @@ pub(super) const NAMES: Alphabet = Alphabet {
     },
 };
 
-/// Writes a net, a read arc as a loop. A transition with the name of a place is told apart by `_x_` behind it: names are
-/// unique among all nodes.
+/// Writes a net; a read arc becomes a loop. A transition that shares its name with a place gets the suffix `_x_`: names
+/// are unique among all nodes.
 ///
 /// # Errors
 /// Those of the output.
@@ -130,7 +130,7 @@ pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "}}")
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net) -> String {
     text(|out| write_to(net, out))

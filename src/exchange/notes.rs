@@ -1,22 +1,22 @@
-//! What can be said about the nodes of a net beside its structure.
+//! Annotations of the nodes of a net.
 
 use crate::source::Source;
 use crate::translate::{Part, PlaceRole, System, TransitionRole};
 
-/// What there is to say about one node: pairs of a word and a value, in the order to be written.
+/// Annotation of a node: pairs of a word and a value, in output order.
 pub type Note = Vec<(&'static str, String)>;
 
-/// A note on every node of a net.
+/// Annotations of all nodes of a net.
 #[derive(Clone, Debug, Default)]
 pub struct Notes {
-    /// By position of the place.
+    /// Annotations by position of the place.
     pub places: Vec<Note>,
-    /// By position of the transition.
+    /// Annotations by position of the transition.
     pub transitions: Vec<Note>,
 }
 
 impl Notes {
-    /// What the nodes of a system net stand for; `source` is the program's text. Lines of code and of text count from 1.
+    /// Meaning of the nodes of a system net; `source` is the program's text. Lines of code and of text count from 1.
     #[must_use]
     pub fn of(system: &System, source: &Source) -> Self {
         let places = system.places.iter().map(|&role| place(system, source, role)).collect();
@@ -49,7 +49,7 @@ fn place(system: &System, source: &Source, role: PlaceRole) -> Note {
     match role {
         PlaceRole::Bit { variable: id, bit, value } => {
             note.push(variable(id));
-            // A `BOOL` is all of its bit.
+            // A `BOOL` has only one bit.
             note.extend((!system.program.variable(id).ty.is_bool()).then(|| self::bit(bit)));
             note.push(self::value(value));
         }
@@ -105,7 +105,7 @@ fn value(value: bool) -> (&'static str, String) {
     ("value", u8::from(value).to_string())
 }
 
-/// The line of code, and the line of the program's text it comes from; `End` comes from none.
+/// Line of code with the source line it comes from; `End` has none.
 fn line(system: &System, source: &Source, line: usize) -> Note {
     let code = system.program.code.get(line);
     let from = code.map(|code| ("source-line", source.line_of(code.span.start).to_string()));
