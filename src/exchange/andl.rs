@@ -108,7 +108,7 @@ pub(super) const NAMES: Alphabet = Alphabet {
 /// are unique among all nodes.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "pn [{}]\n{{\nplaces:\ndiscrete:", escaped(net.name(), NAMES))?;
     let places: Vec<String> = net.places().map(|place| escaped(place.name, NAMES)).collect();

@@ -32,7 +32,7 @@ use crate::printable;
 /// ```
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "digraph \"{}\" {{", escaped(net.name()))?;
     writeln!(out, "  node [fontname=\"Helvetica\", fontsize=10];")?;

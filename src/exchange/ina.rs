@@ -46,7 +46,7 @@ const LINE: Alphabet = Alphabet { allows: is_printable, begins: is_printable, is
 /// unique one; such names follow in full after the net, where INA does not look.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     let by_place =
         |transition: TransitionId| move |(place, weight): (PlaceId, u64)| (place.index(), (transition.index(), weight));

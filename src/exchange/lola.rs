@@ -70,7 +70,7 @@ pub(super) const NAMES: Alphabet = Alphabet {
 /// LoLA requires at least one place and one transition.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, is_safe: bool, out: &mut dyn io::Write) -> io::Result<()> {
     let name = |place: PlaceId| escaped(net.place(place).name, NAMES);
     write!(out, "PLACE {}", if is_safe { "SAFE 1: " } else { "" })?;

@@ -47,7 +47,7 @@ impl Provenance {
         inputs.collect::<Vec<_>>().join("; ")
     }
 
-    /// All data as JSON.
+    /// Data as a JSON object.
     #[must_use]
     pub fn json(&self) -> Value {
         let input = |(file, hash): &(String, String)| json!({ "file": file, "sha256": hash });
@@ -61,7 +61,7 @@ impl Provenance {
         })
     }
 
-    /// All data as pairs of a word and a text on one line.
+    /// Data as pairs of a label and a line of text.
     #[must_use]
     pub fn pairs(&self) -> Vec<(&'static str, String)> {
         let inputs = self.inputs.iter().map(|(file, hash)| ("input", format!("{}, sha256 {hash}", line(file))));

@@ -121,11 +121,11 @@ pub struct Restriction {
 /// Scope of a restriction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// All functions.
+    /// The whole system.
     System,
     /// Functions of a zone.
     Zone(usize),
-    /// One function.
+    /// A function.
     Function(usize),
 }
 

@@ -21,7 +21,7 @@ fn properties(text: &str) -> Vec<Property> {
     properties
 }
 
-/// All diagnostics of a text, as `line:column code message`.
+/// Diagnostics of a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.xml", text);
     let (_, errors) = read(&source);

@@ -15,7 +15,7 @@ fn read_page(page: &str) -> Located {
     read(&Source::new("test.pnml", document(page))).unwrap_or_else(|errors| panic!("{page}\n{errors:#?}"))
 }
 
-/// All diagnostics of a text, as `line:column code message`.
+/// Diagnostics of a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.pnml", text);
     let errors = read_safe(&source).expect_err(text);

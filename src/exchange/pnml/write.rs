@@ -39,7 +39,7 @@ pub struct Extras<'e> {
 /// XML cannot represent; other characters that are not printable become character references.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, extras: Extras<'_>, out: &mut dyn io::Write) -> io::Result<()> {
     let ids = Ids::of(extras.ids);
     let mut xml = Writer::new_with_indent(out, b' ', 2);

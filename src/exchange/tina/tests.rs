@@ -4,7 +4,7 @@ use super::{read, read_safe};
 use crate::net::{Arcs, PlaceId, TransitionId};
 use crate::source::Source;
 
-/// All diagnostics of a text, as `line:column code message`.
+/// Diagnostics of a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.net", text);
     let errors = read_safe(&source).expect_err(text);

@@ -12,7 +12,7 @@ pub(super) const WORDS: [&str; 6] = ["lb", "net", "nt", "pl", "pr", "tr"];
 /// Writes a net. Reading the text gives the same net.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "net {}", name(net.name()))?;
     for place in net.places() {

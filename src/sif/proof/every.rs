@@ -27,7 +27,7 @@ pub(super) struct Seen {
     pub(super) stopped: Option<String>,
 }
 
-/// All input valuations of a scan; `None` if they are too many.
+/// Input valuations of a scan; `None` if they are too many.
 fn readings(subject: &Subject<'_>) -> Option<Vec<Given>> {
     let program = subject.program;
     let inputs: Vec<_> = program.with_role(Role::Input).collect();

@@ -79,7 +79,7 @@ impl Outcome {
 /// Method of a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
-    /// One scan from any state, reachable or not.
+    /// Single scan from any state, reachable or not.
     AnyState,
     /// Induction over this number of scans.
     Induction(usize),

@@ -46,7 +46,7 @@ pub struct Values {
 pub enum Change {
     /// The value of an input is inverted.
     Input(SignalId),
-    /// One occurrence of a signal is negated.
+    /// An occurrence of a signal is negated.
     Occurrence(Occurrence),
 }
 

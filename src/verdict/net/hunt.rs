@@ -53,7 +53,7 @@ pub(super) fn search(
     explore::engine::explore(model, &options, watch, Some(&Hunts(hunts)))
 }
 
-/// All properties of one search. The search may end early only if each is a goal that has been found.
+/// Properties of one search. The search may end early only if each is a goal that has been found.
 struct Hunts<'h, 'q>(&'h [&'h Hunt<'q>]);
 
 impl Wanted for Hunts<'_, '_> {

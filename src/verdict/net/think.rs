@@ -34,7 +34,7 @@ pub(super) struct Thinker<'n, 'h> {
     has_begun: bool,
 }
 
-/// One goal.
+/// Goal with its search state.
 struct Case<'n, 'h> {
     hunt: &'h Hunt<'h>,
     /// Number among the properties.
@@ -55,7 +55,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
         Self { net, model, cases: hunts.iter().enumerate().filter_map(case).collect(), has_begun: false }
     }
 
-    /// One round on the open properties, with up to `states` states for each goal; ends when `watch` gives a reason to
+    /// Works one round on the open properties, with up to `states` states for each goal; ends when `watch` gives a reason to
     /// stop, which is returned.
     pub(super) fn round(
         &mut self,

@@ -35,7 +35,7 @@ impl Slot {
     }
 }
 
-/// All slots of a run, later scans first; within a scan, inputs that have just changed first.
+/// Slots of a run, later scans first; within a scan, inputs that have just changed first.
 pub struct Candidates {
     pub slots: Vec<Slot>,
     /// Whether the alternatives are exhaustive.
