@@ -99,7 +99,7 @@ pub fn common(specification: &Specification, a: usize, b: usize) -> Scope {
 /// Sample of valuations, in words of 64.
 struct Samples<'s> {
     specification: &'s Specification,
-    /// Words of the signals, one per 64 valuations.
+    /// Words of the signals for each 64 valuations.
     words: Vec<Vec<u64>>,
     /// Valuations allowed by the restrictions of the system, of each zone, and of each function.
     allowed: Vec<(u64, Vec<u64>, Vec<u64>)>,

@@ -55,8 +55,8 @@ impl<'n, 'h> Thinker<'n, 'h> {
         Self { net, model, cases: hunts.iter().enumerate().filter_map(case).collect(), has_begun: false }
     }
 
-    /// Works one round on the open properties, with up to `states` states for each goal; ends when `watch` gives a reason to
-    /// stop, which is returned.
+    /// Works one round on the open properties, with up to `states` states for each goal; ends when `watch` gives a reason
+    /// to stop, which is returned.
     pub(super) fn round(
         &mut self,
         open: &[usize],
