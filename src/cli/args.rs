@@ -1,4 +1,4 @@
-//! The arguments, as they are typed.
+//! Command-line arguments, as typed.
 
 use std::path::PathBuf;
 
@@ -437,7 +437,7 @@ pub enum TraceForm {
     Tapaal,
 }
 
-/// An examination by its name.
+/// Parses the name of an examination.
 fn examination(name: &str) -> Result<Examination, String> {
     let found = Examination::ALL.into_iter().find(|examination| examination.name().eq_ignore_ascii_case(name));
     found.ok_or_else(|| format!("there are {}", Examination::ALL.map(Examination::name).join(", ")))

@@ -1,4 +1,4 @@
-//! Limits on all work of a verb, and how it is ended when they are reached.
+//! Limits on the work of a verb, and how the verb is ended when one is reached.
 
 use std::time::Duration;
 
@@ -17,31 +17,31 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The limit on memory, in MiB.
+    /// Memory limit in MiB.
     pub fn memory(&self) -> u64 {
         self.max_memory.unwrap_or_else(memory::default_limit)
     }
 }
 
 impl Limits {
-    /// The limits on the work as a whole.
+    /// Limits on the work as a whole.
     pub fn bounds(&self) -> Bounds {
         let timeout = self.timeout.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Bounds { timeout, max_memory: self.max_memory }
     }
 }
 
-/// A number of seconds.
+/// Parses a number of seconds.
 fn seconds(text: &str) -> Result<Duration, String> {
     let number = text.parse().map_err(|_| format!("`{text}` is not a number of seconds"))?;
     Duration::try_from_secs_f64(number).map_err(|error| error.to_string())
 }
 
 impl Verb {
-    /// The limits on the work, if it is not a session of somebody at a terminal.
+    /// Limits on the work, unless it is an interactive session.
     pub fn bounds(&self) -> Option<Bounds> {
         Some(match self {
-            // Each check has its own time.
+            // Each check has its own time limit.
             Self::Check(check) if check.watch || check.program.is_none() => {
                 Bounds { timeout: None, ..check.limits.bounds() }
             }
@@ -60,7 +60,7 @@ impl Verb {
         })
     }
 
-    /// Whether the answer is to be one JSON document.
+    /// Whether the output is one JSON document.
     pub fn wants_json(&self) -> bool {
         match self {
             Self::Check(arguments) => arguments.json,
@@ -73,7 +73,7 @@ impl Verb {
         }
     }
 
-    /// Whether there is a verdict, or another answer that can be incomplete.
+    /// Whether the verb has a verdict, or another answer that can be incomplete.
     pub fn has_verdict(&self) -> bool {
         match self {
             Self::Check(_) | Self::Net(NetVerb::Info(_) | NetVerb::Check(_) | NetVerb::Explore(_)) => true,

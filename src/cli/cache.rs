@@ -1,7 +1,7 @@
-//! What is known from earlier checks, in files: one for each system that was checked in one way.
+//! Cache of outcomes from earlier checks, in files: one for each system under given options.
 //!
-//! A file is taken only if this very program wrote it, about this very system, for whoever has the same key; anything else is as
-//! if it were not there. That a file cannot be written is no error: then more is computed the next time.
+//! A file is accepted only if it was written by this very program, about this very system, with the same key; any other
+//! file is ignored. A file that cannot be written is not an error: more is computed the next time.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -16,29 +16,30 @@ use super::cache_key::Key;
 use super::console::Console;
 use super::output;
 
-/// The folder beside a project file.
+/// Default name of the cache folder, beside the project file.
 const NAME: &str = ".petril-cache";
 
-/// What is known of larger systems is not kept.
+/// Upper bound in bytes on a cache file; larger results are not kept.
 const MOST: u64 = 64 << 20;
 
-/// How long a file is kept that nobody asks for.
+/// Time after which an unused file is removed.
 const PATIENCE: Duration = Duration::from_secs(30 * 24 * 60 * 60);
 
-/// A folder of what is known.
+/// Cache in a folder.
 #[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
-    /// What was read. What this run finds is for the next one: else it would depend on the order in which programs are checked what
-    /// is known of two that are the same.
+    /// Files read so far. Results of this run are kept for the next one only: otherwise the output would depend on the
+    /// order in which equal programs are checked.
     read: Mutex<BTreeMap<PathBuf, Option<String>>>,
-    /// Stands for this program: another one may come to other results.
+    /// Hash of this program: another version may come to other results.
     petril: &'static str,
     key: Key,
 }
 
 impl Cache {
-    /// The folder that `PETRIL_CACHE` names, or else the one beside a project file. Without a key nothing is taken or kept.
+    /// Opens the folder named by `PETRIL_CACHE`, or else the one beside a project file. Without a key there is no
+    /// cache.
     pub fn open(project: Option<&Path>, console: &Console) -> Option<Self> {
         let named = std::env::var_os("PETRIL_CACHE").filter(|name| !name.is_empty()).map(PathBuf::from);
         let home = project.map(|project| project.parent().filter(|path| !path.as_os_str().is_empty()));
@@ -54,7 +55,7 @@ impl Cache {
         }
     }
 
-    /// What is known of a system.
+    /// Looks up the outcomes for a system.
     pub fn recall(&self, fingerprint: &str) -> Option<Known> {
         let path = self.path(fingerprint);
         let text = self.read.lock().ok()?.entry(path.clone()).or_insert_with(|| text(&path)).clone()?;
@@ -64,12 +65,12 @@ impl Cache {
         // Hashes are compared in constant time.
         let is_own = about == self.about(fingerprint) && blake3::Hash::from_hex(code).is_ok_and(|code| code == signed);
         let known = is_own.then(|| serde_json::from_str(body).ok())??;
-        // Somebody asks for it.
+        // The time of last use is updated.
         let _ = File::open(&path).and_then(|file| file.set_modified(SystemTime::now()));
         Some(known)
     }
 
-    /// Keeps what is known of a system.
+    /// Stores the outcomes for a system.
     pub fn keep(&self, fingerprint: &str, known: &Known) {
         let Ok(body) = serde_json::to_string(known) else { return };
         if body.len() as u64 <= MOST && self.prepare().is_ok() {
@@ -83,7 +84,7 @@ impl Cache {
         self.folder.join(&name.to_hex()[..32])
     }
 
-    /// Signs the body together with what it is about, so that no file can stand for another.
+    /// First line of a file: signs the body together with what it is about, so that no file can stand for another.
     fn head(&self, fingerprint: &str, body: &str) -> String {
         let about = self.about(fingerprint);
         let code = self.key.sign(&format!("{about}\n{body}"));
@@ -94,12 +95,12 @@ impl Cache {
         format!("petril {} {fingerprint}", self.petril)
     }
 
-    /// Makes the folder if there is none, and clears it of what is old.
+    /// Creates the folder if necessary, and removes old files.
     fn prepare(&self) -> io::Result<()> {
         static PREPARED: OnceLock<()> = OnceLock::new();
         fs::create_dir_all(&self.folder)?;
         if PREPARED.set(()).is_ok() {
-            // Nobody wants this under version control.
+            // The cache does not belong under version control.
             let _ = output::write_text(&self.folder.join(".gitignore"), "*\n");
             for entry in fs::read_dir(&self.folder)?.filter_map(Result::ok) {
                 let is_ours = entry.file_name().to_str().is_some_and(|name| name.len() == 32);
@@ -113,12 +114,12 @@ impl Cache {
     }
 }
 
-/// A file that is not too large.
+/// Text of a file that is not too large.
 fn text(path: &Path) -> Option<String> {
     (fs::metadata(path).ok()?.len() <= MOST).then(|| fs::read_to_string(path).ok())?
 }
 
-/// The hash of this program's own file.
+/// Hash of this program's own executable.
 fn this_program() -> Option<&'static str> {
     static HASH: OnceLock<Option<String>> = OnceLock::new();
     let hash = || {

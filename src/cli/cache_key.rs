@@ -1,7 +1,7 @@
-//! The key that what is known from earlier runs is signed with: that of `PETRIL_CACHE_KEY`, or a file of the user's own.
+//! Key that signs the cache: from `PETRIL_CACHE_KEY`, or from a file of the user's own.
 //!
-//! A verdict `holds` cannot be replayed, so it is taken only from whoever has the key. The file never lies where the signed
-//! entries or the project do: what is carried from machine to machine with them must not carry the key along.
+//! A verdict `holds` cannot be replayed, so it is accepted only if signed with the user's key. The key file is never
+//! inside the cache folder or the project: whoever copies those must not get the key with them.
 
 use std::env;
 use std::fs;
@@ -12,18 +12,18 @@ use tempfile::NamedTempFile;
 
 use super::{reason, shown};
 
-/// Names the purpose of the derived key (BLAKE3, mode `derive_key`).
+/// Context string of the derived key (BLAKE3, mode `derive_key`).
 const PURPOSE: &str = "petril 2026 what is known from earlier runs";
 
-/// Shorter secrets can be guessed.
+/// Lower bound on the length of a secret; shorter ones can be guessed.
 const SHORTEST: usize = 16;
 
-/// A key for BLAKE3's keyed mode.
+/// Key for BLAKE3's keyed mode.
 #[derive(Clone, Debug)]
 pub struct Key([u8; 32]);
 
 impl Key {
-    /// The key to use beside these folders; an error says why there is none.
+    /// Finds the key, which must lie outside these folders; the error says why there is none.
     pub fn find(outside: &[&Path]) -> Result<Self, String> {
         if let Some(secret) = env::var_os("PETRIL_CACHE_KEY").filter(|secret| !secret.is_empty()) {
             let secret = secret.into_encoded_bytes();
@@ -46,13 +46,13 @@ impl Key {
         Self(blake3::derive_key(PURPOSE, secret))
     }
 
-    /// The message authentication code of a text.
+    /// Message authentication code of a text.
     pub fn sign(&self, text: &str) -> blake3::Hash {
         blake3::keyed_hash(&self.0, text.as_bytes())
     }
 }
 
-/// Where programs keep what is theirs from one run to the next.
+/// Folder for state that programs keep between runs.
 fn state_folder() -> Option<PathBuf> {
     let folder = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let base = if cfg!(windows) {
@@ -71,7 +71,7 @@ fn private_folder(folder: &Path) -> io::Result<()> {
     builder.create(folder)
 }
 
-/// The secret in a file that nobody else can read; a new one if there is no file.
+/// Secret in a file that nobody else can read; created if the file does not exist.
 fn own(path: &Path) -> io::Result<Vec<u8>> {
     match read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => make(path).and_then(|()| read(path)),
@@ -96,7 +96,7 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
 fn make(path: &Path) -> io::Result<()> {
     let mut secret = [0; 32];
     getrandom::fill(&mut secret).map_err(io::Error::other)?;
-    // A temporary file is its owner's alone.
+    // Temporary files are readable by their owner only.
     let mut file = NamedTempFile::new_in(path.parent().unwrap_or(Path::new("")))?;
     writeln!(file, "{}", blake3::Hash::from_bytes(secret).to_hex())?;
     match file.persist_noclobber(path) {

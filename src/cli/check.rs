@@ -1,4 +1,4 @@
-//! `petril check`: requirements on a program.
+//! `petril check`: checks a program against requirements.
 
 use std::ffi::OsString;
 use std::fmt::Debug;
@@ -26,7 +26,7 @@ use super::report::Printed;
 use super::requirements::{Asked, Bound};
 use super::{Failure, Outcome, forms, guard, input, project, show, watch};
 
-/// A program that was checked.
+/// Checked program with its report.
 pub struct Done {
     pub system: System,
     pub source: Source,
@@ -36,14 +36,14 @@ pub struct Done {
 }
 
 impl Done {
-    /// The report, for those who write it.
+    /// The report with its subject, for output.
     pub fn told(&self) -> Checked<'_> {
         let Self { system, source, report, provenance, .. } = self;
         Checked { system, source, report, provenance }
     }
 }
 
-/// `given` are the options on the command line, as they were typed.
+/// Runs the verb; `given` are the options on the command line, as typed.
 pub fn run(arguments: &Check, given: &[OsString], console: &Console) -> Outcome {
     let once = || match &arguments.program {
         Some(program) => alone(arguments, program, console),
@@ -52,7 +52,7 @@ pub fn run(arguments: &Check, given: &[OsString], console: &Console) -> Outcome 
     if arguments.watch { watch::run(console, &once) } else { once() }
 }
 
-/// Checks one program.
+/// Checks a single program.
 fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
     let watcher = Watcher::new(&arguments.limits)?;
     let cache = if arguments.no_cache { None } else { Cache::open(None, console) };
@@ -66,7 +66,7 @@ fn alone(arguments: &Check, program: &Path, console: &Console) -> Outcome {
     Ok(code(done.report.verdict()))
 }
 
-/// Adds the warnings about the inputs to a report, and what is assumed because of them.
+/// Adds the warnings about the inputs to a report, and the assumptions that follow from them.
 pub fn add_warnings(report: &mut Report, console: &Console) {
     let warnings = console.warnings();
     report.assumptions.extend(warnings.iter().filter_map(|(code, _, message)| input::assumed(code, message)));
@@ -74,7 +74,7 @@ pub fn add_warnings(report: &mut Report, console: &Console) {
         warnings.into_iter().map(|(code, place, message)| format!("{place}: {code}: {message}")).collect();
 }
 
-/// The exit code of a verdict.
+/// Exit code of a verdict.
 pub fn code(verdict: Verdict) -> ExitCode {
     match verdict {
         Verdict::Holds => ExitCode::SUCCESS,
@@ -83,7 +83,7 @@ pub fn code(verdict: Verdict) -> ExitCode {
     }
 }
 
-/// Reads a program and everything that is asked of it, and judges. What is known meanwhile is printed, if that is wanted.
+/// Reads a program and its requirements, and checks them. With `printed`, results are printed as they become known.
 pub fn checked(
     arguments: &Check,
     program: &Path,
@@ -106,7 +106,7 @@ pub fn checked(
     let mut reading = arguments.meaning.reading.clone();
     reading.scan_time = reading.scan_time.or(asked.scan_time());
     let mut plants = arguments.plant.clone();
-    // A plant that a requirement file names may be given on the command line, too.
+    // A plant named by a requirement file may also be given on the command line.
     for named in asked.plants() {
         if !plants.iter().any(|known| is_one_file(known, &named)) {
             plants.push(named);
@@ -121,7 +121,7 @@ pub fn checked(
         asked.bind(&system, view, console)?;
     if view == logic::View::Scan {
         system = with_representatives(system, &requirements, &assumptions, &assertions, &fairness);
-        // The nodes of its net, of which these may speak, are numbered anew.
+        // The net is new, so formulas about its nodes are bound again.
         fairness = fairness_texts.iter().filter_map(|text| bind_fairness(text, &system, view).ok()).collect();
     }
     if arguments.fair {
@@ -160,7 +160,7 @@ pub fn checked(
     Ok(Done { system, source, report, provenance: console.provenance(), started })
 }
 
-/// The options that an answer depends on, but for the files that they name: their contents have hashes of their own.
+/// Options that an answer depends on. Files are covered by hashes of their contents.
 fn options_of(arguments: &Check) -> impl Debug {
     let Check { requirement, domain, fairness, view, fair, meaning, limits, .. } = arguments;
     (requirement, domain, fairness, view, fair, meaning, limits.max_states, limits.max_memory, limits.timeout)
@@ -171,7 +171,8 @@ fn is_one_file(one: &Path, other: &Path) -> bool {
     matches!((fs::canonicalize(one), fs::canonicalize(other)), (Ok(one), Ok(other)) if one == other)
 }
 
-/// The system in which values that nothing tells apart are tried once. The formulas stay bound: variables keep their numbers.
+/// Replaces input domains by representatives: one value for each class of values that nothing distinguishes. The
+/// formulas stay bound, since variables keep their numbers.
 fn with_representatives(
     system: System,
     asked: &[(Requirement, Demand)],

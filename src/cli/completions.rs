@@ -1,4 +1,4 @@
-//! `petril completions`: what a shell needs to complete command lines.
+//! `petril completions`: shell completions.
 
 use clap::CommandFactory;
 

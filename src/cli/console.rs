@@ -1,4 +1,4 @@
-//! The terminal: colour, width, and where messages go.
+//! Terminal output: colour, width, and destination of messages.
 
 use std::fmt;
 use std::fs::File;
@@ -17,34 +17,35 @@ use super::args::When;
 use super::seen::{Seen, sha256};
 use super::{Failure, Outcome, SUCCESS, guard, output, reason};
 
-/// How many diagnostics of one file are printed. The first ones are the ones to mend.
+/// Upper bound on the diagnostics printed for one file; the first ones are the ones to fix.
 pub const MAX_DIAGNOSTICS: usize = 100;
 
-/// What there is to print to. Results go to standard output, messages to standard error.
+/// Output channels. Results go to standard output, messages to standard error.
 pub struct Console {
     errors_in_colour: bool,
     output_in_colour: bool,
     width: usize,
-    /// Columns that results should keep to: those of the terminal they go to, or that are asked for.
+    /// Width of results in columns: that of the terminal they go to, or the requested one.
     output_width: Option<usize>,
-    /// Whether results may have other characters than ASCII.
+    /// Whether results may contain other characters than ASCII.
     has_unicode: bool,
-    /// The diagnostics printed so far, for those who want JSON.
+    /// Diagnostics printed so far, for JSON output.
     printed: Mutex<Vec<Value>>,
-    /// Messages, if they are not printed at once.
+    /// Messages held back, unless they are printed at once.
     held: Option<Mutex<String>>,
     colour: When,
-    /// Stands behind the escape of a colour until it is printed. It is another one in each run, so that no text has it.
+    /// Mark after the escape character of colours until they are printed. Random in each run, so that no text contains
+    /// it.
     mark: String,
-    /// What was seen of the file system.
+    /// Files and patterns read.
     seen: Mutex<Seen>,
-    /// Files read before, by whoever this console reports to.
+    /// Files read before, by the console that this one reports to.
     read_before: Vec<(String, String)>,
     /// Hash of the options of the command line.
     options: Mutex<String>,
 }
 
-/// What one of several consoles was told.
+/// Output collected by a holding console.
 pub struct Told {
     messages: String,
     diagnostics: Vec<Value>,
@@ -52,7 +53,7 @@ pub struct Told {
 }
 
 impl Told {
-    /// The diagnostics, for those who want JSON.
+    /// Takes the diagnostics, for JSON output.
     pub fn take_diagnostics(&mut self) -> Vec<Value> {
         std::mem::take(&mut self.diagnostics)
     }
@@ -82,12 +83,12 @@ impl Console {
         }
     }
 
-    /// The command line asks for this.
+    /// Records the options of the command line.
     pub fn has_options(&self, options: &dyn fmt::Debug) {
         *lock(&self.options) = sha256(format!("{options:?}").as_bytes());
     }
 
-    /// Where a report comes from that is made now.
+    /// Provenance of a report made now.
     pub fn provenance(&self) -> Provenance {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
         let mut inputs = self.read_before.clone();
@@ -96,46 +97,46 @@ impl Console {
         Provenance { command, inputs, options: lock(&self.options).clone() }
     }
 
-    /// When this uses colours.
+    /// Colour setting.
     pub fn colour(&self) -> When {
         self.colour
     }
 
-    /// A console that keeps everything to itself until it is told to this one.
+    /// Creates a console that holds its output until it is passed to [`tell`](Self::tell).
     pub fn holding(colour: When, read_before: Vec<(String, String)>) -> Self {
         Self { held: Some(Mutex::default()), read_before, ..Self::new(colour) }
     }
 
-    /// What was told to a console that keeps it.
+    /// Output held by a holding console.
     pub fn told(self) -> Told {
         let messages = self.held.map(inner).unwrap_or_default();
         Told { messages, diagnostics: inner(self.printed), seen: inner(self.seen) }
     }
 
-    /// Prints what another one was told.
+    /// Prints the output of a holding console.
     pub fn tell(&self, told: Told) {
         self.write(&told.messages);
         lock(&self.printed).extend(told.diagnostics);
         lock(&self.seen).extend(told.seen);
     }
 
-    /// A file was read, or could not be.
+    /// Records a file that was read, or could not be (`None`).
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
         output::has_read(path);
         lock(&self.seen).file(path, bytes);
     }
 
-    /// A pattern matched these files.
+    /// Records the files matched by a pattern.
     pub fn has_matched(&self, pattern: &str, files: &[PathBuf]) {
         lock(&self.seen).pattern(pattern, files);
     }
 
-    /// What was seen of the file system since this was last asked.
+    /// Takes the record of files and patterns read since the last call.
     pub fn take_seen(&self) -> Seen {
         std::mem::take(&mut *lock(&self.seen))
     }
 
-    /// Prints the diagnostics of a file, most of them, each with an empty line behind it.
+    /// Prints the diagnostics of a file, up to a limit, each followed by an empty line.
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], source: &Source) {
         let style = Style { colour: self.errors_in_colour, width: self.width };
         lock(&self.printed).extend(diagnostics.iter().map(|diagnostic| json::diagnostic(diagnostic, source)));
@@ -147,7 +148,7 @@ impl Console {
         }
     }
 
-    /// The warnings printed so far, each with its code, where it stands, and its message.
+    /// Warnings printed so far: code, place, and message of each.
     pub fn warnings(&self) -> Vec<(String, String, String)> {
         let printed = lock(&self.printed);
         let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
@@ -156,7 +157,8 @@ impl Console {
         warnings.map(|d| (text(&d["code"]), place(d), text(&d["message"]))).collect()
     }
 
-    /// Prints an error that has no place in a file. Its further lines are indented: none of them can pass for a line of its own.
+    /// Prints an error without a place in a file. Its further lines are indented, so that none of them can pass for a
+    /// line of its own.
     pub fn error(&self, message: &str) {
         let title = if self.errors_in_colour { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
         let message = printable::lines(message);
@@ -165,7 +167,7 @@ impl Console {
         self.write(&format!("{title}: {}\n", lines.collect::<Vec<_>>().join("\n").trim_start()));
     }
 
-    /// Prints a message. If nobody listens, so be it.
+    /// Prints a message. Write errors are ignored.
     pub fn message(&self, text: &str) {
         self.write(&printable::lines(text));
     }
@@ -178,14 +180,15 @@ impl Console {
         }
     }
 
-    /// Prints a result. Nothing in it but the colours of [`paint()`](Self::paint) can change how a terminal shows it.
+    /// Prints a result. Only the colours of [`paint()`](Self::paint) can affect the terminal; other escapes are
+    /// neutralised.
     pub fn print(&self, text: &str) -> Outcome {
         let mark = format!("\u{1b}{}", self.mark);
         let pieces: Vec<_> = text.split(&mark).map(printable::lines).collect();
         self.print_as_it_is(&pieces.join("\u{1b}"))
     }
 
-    /// Prints a report for people. One that is kept in a file says where it comes from, and so does one that tells everything.
+    /// Prints a report for people, followed by its provenance if output goes to a file or all details are wanted.
     pub fn print_report(&self, text: &str, provenance: &Provenance, tells_everything: bool) -> Outcome {
         if !tells_everything && !is_kept() {
             return self.print(text);
@@ -195,23 +198,23 @@ impl Console {
         self.print(&format!("{text}\n{}", lines.collect::<String>()))
     }
 
-    /// Makes the terminal empty, if results go to one.
+    /// Clears the terminal, if results go to one.
     pub fn clear(&self) -> Outcome {
         if io::stdout().is_terminal() { self.print_as_it_is("\u{1b}[2J\u{1b}[H") } else { Ok(SUCCESS) }
     }
 
     fn print_as_it_is(&self, text: &str) -> Outcome {
-        // What is behind the last line end waits in a buffer, and would be lost without a word.
+        // Text after the last line end stays in a buffer, and write errors would be lost without a flush.
         let mut out = io::stdout().lock();
         match guard::pause(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
             Ok(()) => Ok(SUCCESS),
-            // The reader has seen enough, as `head` does.
+            // The reader has closed the pipe, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(SUCCESS),
             Err(error) => Err(Failure::Message(format!("cannot print: {}", reason(&error)))),
         }
     }
 
-    /// Prints a result as a JSON document, with the diagnostics printed so far, and where it comes from.
+    /// Prints a result as a JSON document, with provenance and the diagnostics printed so far.
     pub fn print_json(&self, mut document: Value) -> Outcome {
         if document["provenance"].is_null() {
             document["provenance"] = self.provenance().json();
@@ -220,17 +223,17 @@ impl Console {
         self.print_as_it_is(&printable::json(&format!("{document:#}\n")))
     }
 
-    /// How wide a result may be; a pipe takes any width.
+    /// Width of results in columns; unlimited for a pipe.
     pub fn output_width(&self) -> usize {
         self.output_width.unwrap_or(usize::MAX)
     }
 
-    /// Whether a result may have other characters than ASCII.
+    /// Whether results may contain other characters than ASCII.
     pub fn has_unicode(&self) -> bool {
         self.has_unicode
     }
 
-    /// A word of a result in the colour of its meaning.
+    /// Colours a word of a result by its meaning.
     pub fn paint(&self, word: &str, colour: Colour) -> String {
         let code = match colour {
             Colour::Good => "32",
@@ -241,13 +244,13 @@ impl Console {
         if self.output_in_colour { format!("{escape}[1;{code}m{word}{escape}[0m") } else { word.to_owned() }
     }
 
-    /// Whether results may have colours.
+    /// Whether results are coloured.
     pub fn output_in_colour(&self) -> bool {
         self.output_in_colour
     }
 }
 
-/// A value that several threads share, also after one of them has panicked.
+/// Locks a mutex, even after a thread has panicked.
 fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -256,7 +259,7 @@ fn inner<T>(shared: Mutex<T>) -> T {
     shared.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What a colour means.
+/// Meaning of a colour.
 #[derive(Clone, Copy)]
 pub enum Colour {
     Good,
@@ -264,7 +267,7 @@ pub enum Colour {
     Doubtful,
 }
 
-/// Whether results go into a file.
+/// Whether standard output is a file.
 fn is_kept() -> bool {
     #[cfg(unix)]
     let copy = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
@@ -273,18 +276,18 @@ fn is_kept() -> bool {
     copy.is_ok_and(|copy| File::from(copy).metadata().is_ok_and(|about| about.is_file()))
 }
 
-/// Columns of the terminal, if it says.
+/// Width from the environment variable `COLUMNS`, if set.
 fn console_width() -> Option<usize> {
     std::env::var("COLUMNS").ok()?.parse().ok().filter(|&width| width >= 40)
 }
 
-/// Columns of the terminal that results go to, if they go to one.
+/// Width of the terminal that results go to, if any.
 fn terminal_width() -> Option<usize> {
     let (terminal_size::Width(columns), _) = terminal_size::terminal_size_of(io::stdout())?;
     Some(usize::from(columns)).filter(|&width| width >= 40)
 }
 
-/// Whether the locale says UTF-8, and the terminal is not a dumb one.
+/// Whether the locale uses UTF-8, and the terminal is not a dumb one.
 fn locale_has_unicode() -> bool {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default().to_uppercase();

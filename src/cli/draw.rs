@@ -1,4 +1,4 @@
-//! `petril draw`: the subnet of one instruction as a picture.
+//! `petril draw`: draws the subnet of one instruction.
 
 use petril::diagnostic::{any_error, nearest};
 use petril::flat::{FlatProgram, flatten};
@@ -11,7 +11,7 @@ use super::args::Draw;
 use super::console::Console;
 use super::{Failure, Outcome, SUCCESS, input, output, shown};
 
-/// The operators there are pictures of.
+/// Operators with pictures.
 const OPERATORS: [&str; 19] = [
     "LD", "LDN", "ST", "STN", "S", "R", "AND", "ANDN", "OR", "ORN", "XOR", "XORN", "NOT", "JMP", "JMPC", "JMPCN",
     "RET", "RETC", "RETCN",

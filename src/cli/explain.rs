@@ -1,6 +1,6 @@
-//! `petril explain`: what a code means, with a program that is refused and one that is not.
+//! `petril explain`: explains a code, with a program that is rejected and one that is accepted.
 //!
-//! The pages are `docs/codes/*.md`; `tests/diagnostics.rs` holds them to what is said.
+//! The pages are `docs/codes/*.md`; `tests/diagnostics.rs` checks them against the diagnostics.
 
 use petril::diagnostic::{Code, nearest};
 use petril::printable;
@@ -15,7 +15,7 @@ macro_rules! pages {
     };
 }
 
-/// The page of each code.
+/// Page of each code.
 const PAGES: &[(&str, &str)] = pages! {
     "E0101" "E0102" "E0103" "E0104" "E0105" "E0106" "E0107" "E0108" "E0109" "E0110" "E0111" "E0112" "E0113"
     "E0114"

@@ -1,4 +1,4 @@
-//! `petril flat`: the numbered code of a program.
+//! `petril flat`: prints the numbered code of a program.
 
 use super::args::Flat;
 use super::console::Console;

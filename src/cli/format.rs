@@ -1,11 +1,11 @@
-//! The formats of nets that can be written, by the ending of a file's name.
+//! Output formats of nets, chosen by file extension.
 
 use std::ffi::OsStr;
 use std::path::Path;
 
 use super::{Failure, shown};
 
-/// A format.
+/// Output format of a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Pnml,
@@ -17,7 +17,7 @@ pub enum Format {
     Svg,
 }
 
-/// The formats with their endings, and with the tools that the ending does not name.
+/// Extensions of the formats, with the tools that the extension does not name.
 const ENDINGS: [(&str, Format, &str); 7] = [
     ("pnml", Format::Pnml, ""),
     ("net", Format::Tina, " (TINA)"),
@@ -29,7 +29,7 @@ const ENDINGS: [(&str, Format, &str); 7] = [
 ];
 
 impl Format {
-    /// The format of a file.
+    /// Chooses the format of a file.
     pub fn of(path: &Path) -> Result<Self, Failure> {
         let ending = path.extension().and_then(OsStr::to_str).unwrap_or_default();
         let found = ENDINGS.iter().find(|(known, ..)| *known == ending);

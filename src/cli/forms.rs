@@ -1,4 +1,4 @@
-//! The forms of a report that are written into files, several at once if several are asked for.
+//! Report files: output formats written to files, several at once if requested.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ pub struct Forms {
     pub vcd: Option<PathBuf>,
 }
 
-/// Writes what was asked for. Each file is whole, or is not there.
+/// Writes the requested files. Each file is written completely or not at all.
 pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(), Failure> {
     refuse(forms)?;
     guard::phase("writing the report");
@@ -64,7 +64,7 @@ pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(
     Ok(())
 }
 
-/// Refuses two forms in one file, and forms in the place of an input.
+/// Rejects a file used for two outputs, and an output that would overwrite an input.
 pub fn refuse(forms: &Forms) -> Result<(), Failure> {
     output::refuse([&forms.html, &forms.junit, &forms.sarif, &forms.csv].into_iter().flatten())
 }
@@ -90,7 +90,8 @@ fn each_counterexample(
     Ok(())
 }
 
-/// The time now. A build that must not depend on it says another one in `SOURCE_DATE_EPOCH`, and then takes no time.
+/// Current time and duration. `SOURCE_DATE_EPOCH` replaces the time, for reproducible output, and the duration is then
+/// 0.
 pub fn stamp(started: Instant) -> Stamp {
     let said = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
     let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());

@@ -1,5 +1,5 @@
-//! Limits of the whole process, in every phase of its work. Work that asks whether to stop reports what it has found; work
-//! that does not is ended a little later, with a message.
+//! Limits on the whole process, in every phase of its work. Work that polls [`asked`] reports its partial results;
+//! other work is ended somewhat later, with a message.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -14,19 +14,19 @@ use serde_json::json;
 use super::bounds::Bounds;
 use super::{memory, output};
 
-/// Why work is to stop.
+/// Reason to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
-    /// Whoever started the program wants it to end.
+    /// The user interrupted the program.
     Interrupted,
     /// The time limit was reached.
     Time(Duration),
-    /// The limit on memory was reached, in MiB, by what is in use.
+    /// The memory limit was reached; `limit` and memory in use, in MiB.
     Memory { limit: u64, used: u64 },
 }
 
 impl Reason {
-    /// The reason that more memory is in use than this limit, in MiB.
+    /// Memory above this limit, in MiB.
     pub fn memory(limit: u64) -> Self {
         Self::Memory { limit, used: used() }
     }
@@ -42,10 +42,10 @@ impl fmt::Display for Reason {
     }
 }
 
-/// How a verb is ended that does not end itself.
+/// Output of a verb that the guard ends.
 #[derive(Clone, Copy)]
 pub struct Ending {
-    /// Whether the verb has a verdict, which is then unknown.
+    /// Whether the verb has a verdict, which is then "unknown".
     pub has_verdict: bool,
     pub wants_json: bool,
 }
@@ -53,7 +53,7 @@ pub struct Ending {
 struct Guard {
     started: Instant,
     timeout: Option<Duration>,
-    /// Limit on memory, in MiB.
+    /// Memory limit in MiB.
     memory: u64,
 }
 
@@ -61,26 +61,26 @@ static GUARD: OnceLock<Guard> = OnceLock::new();
 static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
 /// Memory in use, in MiB.
 static USED: AtomicU64 = AtomicU64::new(0);
-/// Whether the work asks if it is to stop.
+/// Whether the work polls for a reason to stop.
 static IS_ASKING: AtomicBool = AtomicBool::new(false);
-/// Threads that wait for a reader of their output.
+/// Number of threads blocked on a reader of their output.
 static PAUSED: AtomicUsize = AtomicUsize::new(0);
 static PHASE: Mutex<&str> = Mutex::new("starting");
 
-/// Time between two looks at clock and memory.
+/// Interval between two checks of clock and memory.
 const TICK: Duration = Duration::from_millis(10);
 
-/// A signal so soon after another is the same one, sent to the program and to its group.
+/// Signals within this interval count as one: a signal to the program and one to its group.
 const TWICE: Duration = Duration::from_millis(500);
 
-/// Memory of a process beside that of its work, in MiB.
+/// Memory of a process apart from its work, in MiB.
 const BASE: u64 = 64;
 
-/// Keeps the limits from now on. Ctrl-C asks the work to stop, and the second one ends the program.
+/// Starts to enforce the limits. Ctrl-C asks the work to stop; a second Ctrl-C ends the program.
 pub fn start(bounds: &Bounds, ending: Ending) {
     let guard = Guard { started: Instant::now(), timeout: bounds.timeout, memory: bounds.memory() };
     let guard = GUARD.get_or_init(|| guard);
-    // If nobody can be told, signals end the program as usual.
+    // Without a handler, signals end the program as usual.
     let _ = ctrlc::set_handler(|| {
         if INTERRUPTED.get_or_init(Instant::now).elapsed() > TWICE {
             output::discard_unfinished();
@@ -90,12 +90,12 @@ pub fn start(bounds: &Bounds, ending: Ending) {
     let _ = thread::Builder::new().name("guard".to_owned()).spawn(move || guard.keep(ending));
 }
 
-/// From now on, the work asks whether it is to stop, and gets the time to report what it has found.
+/// Declares that the work polls for a reason to stop; it is then given time to report partial results.
 pub fn listen() {
     IS_ASKING.store(true, Ordering::Relaxed);
 }
 
-/// Why the work is to stop, if it is.
+/// Reason why the work is to stop, if any.
 pub fn asked() -> Option<Reason> {
     if is_interrupted() {
         return Some(Reason::Interrupted);
@@ -107,7 +107,7 @@ pub fn asked() -> Option<Reason> {
     (used() > guard.memory).then(|| Reason::memory(guard.memory))
 }
 
-/// Why work is to stop that makes the best of what was done within the limits: these, and a little more.
+/// As [`asked`], with slightly extended limits for work that completes partial results.
 pub fn asked_to_finish() -> Option<Reason> {
     let reason = asked()?;
     let guard = GUARD.get()?;
@@ -120,7 +120,7 @@ pub fn asked_to_finish() -> Option<Reason> {
     is_due.then_some(reason)
 }
 
-/// The time until which work that was asked to stop at another one may finish what it has begun.
+/// Time until which work that was asked to stop at `asked` may complete what it has begun.
 pub fn to_finish(asked: Duration) -> Duration {
     asked.saturating_add(asked / 5).saturating_add(Duration::from_millis(300))
 }
@@ -130,7 +130,7 @@ pub fn is_asked() -> bool {
     asked().is_some()
 }
 
-/// Whether whoever started the program wants it to end.
+/// Whether the user interrupted the program.
 pub fn is_interrupted() -> bool {
     INTERRUPTED.get().is_some()
 }
@@ -140,17 +140,17 @@ pub fn used() -> u64 {
     USED.load(Ordering::Relaxed)
 }
 
-/// Names the phase that begins.
+/// Sets the current phase of the work.
 pub fn phase(name: &'static str) {
     *PHASE.lock().unwrap_or_else(PoisonError::into_inner) = name;
 }
 
-/// The phase that goes on.
+/// Current phase of the work.
 pub fn doing() -> &'static str {
     *PHASE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Does something that may wait for a reader of output, who may take any time.
+/// Runs work that may block on a reader of output for any time.
 pub fn pause<T>(work: impl FnOnce() -> T) -> T {
     PAUSED.fetch_add(1, Ordering::SeqCst);
     let done = work();
@@ -158,7 +158,7 @@ pub fn pause<T>(work: impl FnOnce() -> T) -> T {
     done
 }
 
-/// The time at which work is ended that was asked to stop at another one: less than half as much again and a second.
+/// Time at which work that was asked to stop at `asked` is ended: 1.4 times as long, plus 0.8 s.
 fn grace(asked: Duration) -> Duration {
     asked.saturating_add(asked / 5 * 2).saturating_add(Duration::from_millis(800))
 }
@@ -169,13 +169,13 @@ impl Guard {
         let is_limited = memory::address_space().is_some();
         loop {
             thread::sleep(TICK);
-            // A system that does not tell leaves memory to the limits that the work keeps itself.
+            // On systems without this figure, memory is limited only by the work itself.
             let used = memory::resident().unwrap_or_default() >> 20;
             USED.store(used, Ordering::Relaxed);
             if let Some((taken, space)) = memory::address_space().filter(|_| is_limited)
                 && taken > space - space / 8
             {
-                // Where none is left, the next allocation would abort the process.
+                // When it is used up, the next allocation aborts the process.
                 self.end(Reason::Memory { limit: space >> 20, used: taken >> 20 }, ending, false);
             }
             let Some(reason) = asked() else {
@@ -192,7 +192,7 @@ impl Guard {
         }
     }
 
-    /// Ends the process. Where a reader keeps others waiting, nothing more is printed.
+    /// Ends the process. Nothing more is printed if a reader blocks the output.
     fn end(&self, reason: Reason, ending: Ending, is_paused: bool) {
         output::discard_unfinished();
         let is_interrupted = reason == Reason::Interrupted;

@@ -1,4 +1,4 @@
-//! Files in: programs and plants.
+//! Input files: programs, plants, nets.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -18,7 +18,7 @@ use super::console::Console;
 use super::meaning::Reading;
 use super::{Failure, guard, output, reason, shown};
 
-/// Programs and requirements are written by hand; nets may come from a generator.
+/// Upper bounds on input files in bytes: programs and requirements are written by hand, nets may be generated.
 pub const MAX_TEXT: u64 = 64 << 20;
 const MAX_NET: u64 = 2 << 30;
 
@@ -36,7 +36,7 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
         std::io::stdin().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
         console.has_read(path, Some(&bytes));
     } else {
-        // The file itself, not a trait object: it knows its size, so that the bytes are put in their place at once.
+        // A `File` rather than a trait object: its size is known, so the bytes are read into place at once.
         File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(cannot)?;
         console.has_read(path, Some(&bytes));
     }
@@ -66,18 +66,18 @@ fn readable(bytes: &[u8]) -> Vec<u8> {
     bytes.iter().map(|&b| if b.is_ascii_graphic() || b.is_ascii_whitespace() { b } else { b'.' }).collect()
 }
 
-/// A program that passed all checks, with its text.
+/// Program that passed all checks, with its text.
 pub struct Program {
     pub flat: FlatProgram,
     pub source: Source,
 }
 
-/// Reads a program, or the unit that is asked for. Its diagnostics are printed, warnings too.
+/// Reads a program, or the requested unit. Its diagnostics are printed, warnings included.
 pub fn program(path: &Path, reading: &Reading, console: &Console) -> Result<Program, Failure> {
     program_of(source(path, MAX_TEXT, console)?, reading, console)
 }
 
-/// The same of a text that was read already.
+/// As [`program`], for a text already read.
 pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Result<Program, Failure> {
     guard::phase("reading the program");
     let (unit, mut diagnostics) = syntax::parse(&source);
@@ -86,7 +86,7 @@ pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Resul
     }
     guard::phase("checking names and types");
     let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), reading.pou.as_deref());
-    // The letter of the standard has said so already.
+    // Strict mode has reported this already.
     diagnostics.extend(more.into_iter().filter(|d| !(reading.strict && d.code == Code::CheckedByItself)));
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
@@ -95,20 +95,20 @@ pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Resul
     Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
 }
 
-/// The assumption that a warning about a program stands for, in words.
+/// Assumption that a warning about a program implies, in words.
 pub fn assumed(code: &str, message: &str) -> Option<String> {
     (code == Code::AddressesMayOverlap.id()).then(|| format!("every address is a place of its own, though {message}"))
 }
 
-/// Reads a text as a net.
+/// Reader of nets.
 type NetReader = fn(&Source) -> Result<Located, Vec<Diagnostic>>;
 
-/// Reads a net, by the ending of its name.
+/// Reads a net, in the format of its file extension.
 pub fn net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
     net_by(path, [tina::read, pnml::read], console)
 }
 
-/// Reads a net that can be safe.
+/// Reads a net that may be safe.
 pub fn safe_net(path: &Path, console: &Console) -> Result<(Located, Source), Failure> {
     net_by(path, [tina::read_safe, pnml::read_safe], console)
 }
@@ -136,7 +136,7 @@ fn net_by(path: &Path, [of_tina, of_pnml]: [NetReader; 2], console: &Console) ->
     }
 }
 
-/// A program in its plants, free inputs having any value.
+/// Reads a program and its plants as a system; free inputs take any value.
 pub fn system<P: AsRef<Path>>(
     path: &Path,
     plants: &[P],
@@ -148,7 +148,7 @@ pub fn system<P: AsRef<Path>>(
     Ok((System::new(program.flat, plant), program.source))
 }
 
-/// A program and its plants.
+/// Reads a program and its plants.
 pub fn parts<P: AsRef<Path>>(
     path: &Path,
     plants: &[P],
@@ -158,7 +158,7 @@ pub fn parts<P: AsRef<Path>>(
     parts_of(source(path, MAX_TEXT, console)?, plants, reading, console)
 }
 
-/// The same where the text of the program was read already.
+/// As [`parts`], for a program text already read.
 pub fn parts_of<P: AsRef<Path>>(
     source: Source,
     plants: &[P],
@@ -166,7 +166,7 @@ pub fn parts_of<P: AsRef<Path>>(
     console: &Console,
 ) -> Result<(Program, Plant), Failure> {
     let program = program_of(source, reading, console);
-    // Every file is read before anything is given up, so that all errors are seen at once.
+    // All files are read before giving up, so that all errors are seen at once.
     let nets: Vec<_> = plants.iter().map(|plant| safe_net(plant.as_ref(), console)).collect();
     let program = program?;
     let mut plant = Plant::default();

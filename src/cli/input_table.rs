@@ -1,4 +1,4 @@
-//! Tables of inputs (CSV): names in the first row, then the values of each scan.
+//! Tables of inputs (CSV): names in the first row, then one row of values per scan.
 
 use std::collections::BTreeSet;
 
@@ -9,11 +9,11 @@ use petril::semantics::{Role, VarId};
 use petril::source::{Source, Span};
 use petril::syntax::ast::key;
 
-/// The rows of a table of inputs: the values each sets.
+/// Reads a table of inputs: the values set by each row.
 pub fn read(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, u64)>>, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text().as_bytes());
-    // The reader gives no columns, so a diagnostic points at the whole line.
+    // The CSV reader reports no columns, so a diagnostic points at the whole line.
     let line = |position: Option<&csv::Position>| {
         let start = position.map_or(0, |position| position.byte() as usize);
         let length = source.text().get(start..).and_then(|rest| rest.lines().next()).map_or(0, str::len);
@@ -77,7 +77,7 @@ pub fn read(source: &Source, program: &FlatProgram) -> Result<Vec<Vec<(VarId, u6
     if errors.is_empty() { Ok(rows) } else { Err(errors) }
 }
 
-/// A row that is none.
+/// Diagnostic of a malformed row.
 fn malformed(error: &csv::Error, span: Span) -> Diagnostic {
     let csv::ErrorKind::UnequalLengths { expected_len, len, .. } = error.kind() else {
         return Diagnostic::new(Code::InputTable, span, error.to_string());
@@ -87,7 +87,7 @@ fn malformed(error: &csv::Error, span: Span) -> Diagnostic {
     Diagnostic::new(Code::InputTable, span, message).help("give each input one value, separated by commas")
 }
 
-/// What to write for a value of an input.
+/// Help on valid values of an input.
 pub fn values(program: &FlatProgram, input: VarId) -> String {
     let (least, greatest) = program.range(input);
     match program.restrictions.get(&input) {
@@ -97,7 +97,7 @@ pub fn values(program: &FlatProgram, input: VarId) -> String {
     }
 }
 
-/// A value of an input: TRUE, FALSE, a name, or a number; times count milliseconds or are literals.
+/// Parses a value of an input: TRUE, FALSE, a name, or a number; times are in milliseconds or literals.
 pub fn value(program: &FlatProgram, input: VarId, text: &str) -> Option<u64> {
     let ty = program.variable(input).ty;
     let (least, greatest) = program.range(input);

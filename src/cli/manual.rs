@@ -1,4 +1,4 @@
-//! `petril man`: pages for `man`, one for each verb.
+//! `petril man`: manual pages, one for each verb.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Options about what a program means on the PLC it runs on.
+//! Options on the semantics of a program on its PLC.
 
 use clap::ValueEnum;
 use petril::flat::Tolerated;
@@ -52,13 +52,13 @@ pub enum DivisionByZero {
 }
 
 impl Meaning {
-    /// The hazards that are no errors.
+    /// Hazards that are not errors.
     pub fn tolerated(&self) -> Tolerated {
         Tolerated { overflow: self.overflow == Overflow::Wrap, division_by_zero: self.div0 == DivisionByZero::Zero }
     }
 }
 
-/// A time above 0 as `20ms` or `T#20ms`.
+/// Parses a time above 0, as `20ms` or `T#20ms`.
 fn milliseconds(text: &str) -> Result<u64, String> {
     let literal = if text.contains('#') { text.to_owned() } else { format!("T#{text}") };
     let number = logic::number(&literal)?;

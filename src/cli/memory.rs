@@ -1,12 +1,12 @@
-//! Memory that this process may use, and memory that it uses.
+//! Memory available to this process, and memory in use.
 //!
-//! The default of `--max-memory` is half of what it may use. On Linux, that is the least of the machine's memory, the limits of
-//! the control groups the process is in (version 2 or 1, all levels), and its address space.
+//! The default of `--max-memory` is half of the available memory. On Linux, that is the minimum of the machine's
+//! memory, the limits of the control groups of the process (version 2 or 1, all levels), and its address space.
 
 use std::fs;
 use std::path::Path;
 
-/// Bytes taken for the memory of a machine that does not tell.
+/// Assumed memory in bytes of a machine that does not report it.
 const UNKNOWN: u64 = 8 << 30;
 
 /// Default of `--max-memory`, in MiB.
@@ -14,19 +14,19 @@ pub fn default_limit() -> u64 {
     ((usable(Path::new("/")).unwrap_or(UNKNOWN) / 2) >> 20).max(1)
 }
 
-/// Bytes of this process in the machine's memory, if the system tells.
+/// Resident memory of this process in bytes, if known.
 pub fn resident() -> Option<u64> {
     number_after(Path::new("/proc/self/status"), "VmRSS:").and_then(|kib| kib.checked_mul(1 << 10))
 }
 
-/// Bytes of this process in its address space, and of the address space, if that has a limit.
+/// Size of this process's address space and its limit in bytes, if there is one.
 pub fn address_space() -> Option<(u64, u64)> {
     let space = number_after(Path::new("/proc/self/limits"), "Max address space")?;
     let taken = number_after(Path::new("/proc/self/status"), "VmSize:").and_then(|kib| kib.checked_mul(1 << 10))?;
     Some((taken, space))
 }
 
-/// Bytes this process may use, read below the root of the file system.
+/// Memory available to this process in bytes; `root` is the root of the file system.
 fn usable(root: &Path) -> Option<u64> {
     let machine = number_after(&root.join("proc/meminfo"), "MemTotal:").and_then(|kib| kib.checked_mul(1 << 10));
     let space = number_after(&root.join("proc/self/limits"), "Max address space");
@@ -39,12 +39,12 @@ fn number_after(file: &Path, label: &str) -> Option<u64> {
     text.lines().find_map(|line| line.strip_prefix(label))?.split_whitespace().next()?.parse().ok()
 }
 
-/// Limits of the control groups of this process, from its own to the outermost one visible.
+/// Limits of the control groups of this process, from its own to the outermost visible one.
 fn control_groups(root: &Path) -> Vec<u64> {
     let groups = fs::read_to_string(root.join("proc/self/cgroup")).unwrap_or_default();
     let mut limits = Vec::new();
     for group in groups.lines() {
-        // hierarchy:controllers:path; the hierarchy of version 2 names no controllers.
+        // The format is hierarchy:controllers:path; the hierarchy of version 2 names no controllers.
         let mut fields = group.splitn(3, ':').skip(1);
         let (Some(controllers), Some(path)) = (fields.next(), fields.next()) else { continue };
         let (mount, files): (_, &[&str]) = match controllers {

@@ -1,4 +1,4 @@
-//! The command line: the only place that opens files, prints, or knows the clock. One file for each verb.
+//! Command line: the only code that opens files, prints, or reads the clock. One file for each verb.
 //!
 //! Exit codes are a contract: 0 everything holds, 1 something is violated, 2 bad usage or input, 3 undecided.
 
@@ -54,21 +54,21 @@ use serde_json::json;
 use args::{Args, NetVerb, Verb};
 use console::Console;
 
-/// What went wrong where no verdict could be reached. It has been printed already if it is a list of diagnostics.
+/// Failure without a verdict.
 pub enum Failure {
-    /// Diagnostics were printed.
+    /// Diagnostics have been printed.
     Reported,
-    /// This has still to be said.
+    /// Message still to be printed.
     Message(String),
 }
 
-/// How a verb ends.
+/// Result of a verb.
 pub type Outcome = Result<ExitCode, Failure>;
 
-/// Everything holds, or the verb did what it was asked to.
+/// Exit code when everything holds, or the verb did its work.
 pub const SUCCESS: ExitCode = ExitCode::SUCCESS;
 
-/// Why a file could not be read or written, without the number the system gives it and without temporary paths.
+/// Reason of an I/O error, without the system's error number and without temporary paths.
 fn reason(error: &io::Error) -> String {
     let mut innermost: &dyn std::error::Error = error;
     while let Some(source) = innermost.source() {
@@ -78,19 +78,19 @@ fn reason(error: &io::Error) -> String {
     text.split(" (os error ").next().unwrap_or_default().to_lowercase()
 }
 
-/// A path as people read it.
+/// A path in printable form.
 fn shown(path: &Path) -> String {
     printable::line(&path.display().to_string())
 }
 
-/// Says what is wrong with the command line, or what was asked for instead of a verb. The words are those that people read: the
-/// same mistake is made again with these.
+/// Reports a command-line error, or help that was requested. The words are made printable and parsed again, so that the
+/// message contains no raw input.
 fn refuse(error: clap::Error, words: &[OsString]) -> ! {
     let words = words.iter().map(|word| printable::line(&word.to_string_lossy()));
     Args::command().try_get_matches_from(words).err().unwrap_or(error).exit()
 }
 
-/// Reads the command line and does what it says.
+/// Parses the command line and runs the verb.
 pub fn run() -> ExitCode {
     let words: Vec<OsString> = std::env::args_os().collect();
     let matches = Args::command().try_get_matches_from(&words).unwrap_or_else(|error| refuse(error, &words));

@@ -1,4 +1,4 @@
-//! `petril net check`: answers about a net, in the lines of the Model Checking Contest.
+//! `petril net check`: answers questions about a net, in the output format of the Model Checking Contest.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -28,7 +28,7 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     guard::phase("answering questions about the net");
     let options = Options { budget: arguments.on.limits.budget(), threads: threads(&arguments.on.limits), keep: true };
     let mut printed = Ok(SUCCESS);
-    // Whoever ends the work from outside keeps what is known.
+    // Answers are printed as they become known, so that they remain when the work is ended from outside.
     let mut tell = |number: usize, reply: &Reply, means: &[Means]| {
         if !arguments.on.json && printed.is_ok() {
             let (name, is_id) = &names[number];
@@ -59,10 +59,10 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     })
 }
 
-/// Name of a question, and whether it is an id.
+/// Name of a question, and whether it is the id of a property.
 type Called = (String, bool);
 
-/// Questions, and how each is called. All errors are printed.
+/// Reads the questions with their names. All errors are printed.
 fn questions(
     arguments: &NetCheck,
     located: &Located,
@@ -117,7 +117,7 @@ fn questions(
     if failed { Err(Failure::Reported) } else { Ok((names, questions)) }
 }
 
-/// The nodes by the ids of the file; by their names where it has none.
+/// Nodes by their ids in the file, or by name where the format has none.
 fn ids(located: &Located) -> Nodes<'_> {
     let Some((places, transitions)) = &located.ids else { return located.net.nodes() };
     let places = places.iter().enumerate().map(|(i, id)| (id.as_str(), PlaceId::at(i)));
@@ -127,7 +127,7 @@ fn ids(located: &Located) -> Nodes<'_> {
 
 struct Answer<'r> {
     name: &'r str,
-    /// Whether the name is that of a property in a file, not a formula.
+    /// Whether the name is the id of a property in a file, rather than a formula.
     is_id: bool,
     reply: &'r Reply,
     means: &'r [Means],
@@ -158,7 +158,7 @@ impl Answer<'_> {
             Reply::Most(most) => most.to_string(),
             Reply::Unknown(_) => "CANNOT_COMPUTE".to_owned(),
         };
-        // An id is one word, so that none can hold an answer of its own.
+        // An id is made one word, so that it cannot imitate an answer.
         let name = printable::line(self.name);
         let name = if self.is_id { name.replace(' ', "\\u{20}") } else { name };
         let _ = writeln!(out, "FORMULA {name} {word} TECHNIQUES {}", self.techniques());

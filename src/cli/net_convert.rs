@@ -1,4 +1,4 @@
-//! `petril net convert`: a net in another format.
+//! `petril net convert`: writes a net in another format.
 
 use std::path::Path;
 
@@ -11,13 +11,13 @@ use super::console::Console;
 use super::format::Format;
 use super::{Failure, Outcome, input, output, shown};
 
-/// The most nodes that Graphviz lays out in a minute or so.
+/// Upper bound on the nodes that Graphviz lays out in about a minute.
 const MANY_FOR_GRAPHVIZ: usize = 2_000;
 
 pub fn run(arguments: &NetConvert, console: &Console) -> Outcome {
     let format = format(&arguments.output)?;
     let (located, source) = input::net(&arguments.model, console)?;
-    // Nothing points into the file any more; it may be large.
+    // The text may be large and is not needed any more.
     drop(source);
     let net = &located.net;
     let extras = Extras { ids: located.ids.as_ref(), units: located.units.as_ref(), ..Extras::default() };
@@ -26,7 +26,7 @@ pub fn run(arguments: &NetConvert, console: &Console) -> Outcome {
     console.print(&format!("{}: {places} places, {transitions} transitions\n", shown(&arguments.output)))
 }
 
-/// The format that the name of a file asks for.
+/// Format of a file, by its extension.
 pub fn format(path: &Path) -> Result<Format, Failure> {
     let format = Format::of(path)?;
     if format == Format::Svg {
@@ -37,7 +37,7 @@ pub fn format(path: &Path) -> Result<Format, Failure> {
     Ok(format)
 }
 
-/// Writes a net; only PNML takes all extras.
+/// Writes a net; only PNML supports all extras.
 pub fn write(path: &Path, format: Format, net: &Net, extras: Extras<'_>, console: &Console) -> Result<(), Failure> {
     let nodes = net.places().len() + net.transitions().len();
     match format {

@@ -1,4 +1,4 @@
-//! `petril net explore`: how many states a net has, in the lines of the Model Checking Contest.
+//! `petril net explore`: counts the states of a net, in the output format of the Model Checking Contest.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -61,7 +61,7 @@ pub fn run(arguments: &OnNet, console: &Console) -> Outcome {
     Ok(if *stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
 }
 
-/// As many as were asked for, else as many as there are processors.
+/// Number of threads: as requested, or one per processor.
 pub fn threads(limits: &Limits) -> usize {
     limits.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }
@@ -77,7 +77,7 @@ fn text(figures: &Figures, stop: &Stop, deadlock: Option<&str>) -> String {
         let _ = if known {
             writeln!(out, "STATE_SPACE {what} {number} TECHNIQUES EXPLICIT")
         } else {
-            // Without the last word, no tool takes it for an answer.
+            // Without the last word, no tool takes the line for an answer.
             writeln!(out, "at least {number} {what}")
         };
     };

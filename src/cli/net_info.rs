@@ -1,4 +1,4 @@
-//! `petril net info`: size and structure of any net, and its behaviour if that can be explored.
+//! `petril net info`: size and structure of any net, and its behaviour if it can be explored.
 
 use std::process::ExitCode;
 
@@ -16,13 +16,13 @@ use super::progress::Watcher;
 use super::report::counted;
 use super::{Outcome, SUCCESS, guard, input};
 
-/// Nodes named in a line of text, at most.
+/// Upper bound on nodes named in a line.
 pub const NAMED: usize = 20;
 
-/// States explored if nothing else is said. `petril net explore` is for more.
+/// Default limit on states. `petril net explore` is for more.
 const STATES: u64 = 2_000_000;
 
-/// Nets of more nodes are explored only if a number of states is given.
+/// Upper bound on the nodes of a net that is explored without an explicit limit on states.
 const NODES: usize = 20_000;
 
 pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
@@ -33,7 +33,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     guard::phase("looking at the structure of the net");
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };
-    // A marking of a large net takes a long time in itself.
+    // Each marking of a large net takes long by itself.
     let nodes = net.places().len() + net.transitions().len();
     if nodes > NODES && on.limits.max_states.is_none() {
         watcher.finish();
@@ -77,7 +77,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     Ok(if exploration.stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
 }
 
-/// What is said of a net whose markings are not explored.
+/// Report on a net that is not explored.
 fn unexplored(structure: &Structure<'_>, net: &Net, arguments: &NetInfo, console: &Console) -> Outcome {
     let reason = format!("the net has more than {NODES} nodes; --max-states N explores so many of its markings");
     if arguments.on.json {
@@ -117,10 +117,10 @@ fn size(net: &Net) -> String {
     )
 }
 
-/// Why a net is not safe.
+/// Counterexample to safeness.
 struct SecondToken<'n> {
     place: &'n str,
-    /// The shortest way there.
+    /// Shortest firing sequence to that marking.
     firings: Vec<&'n str>,
 }
 
@@ -132,7 +132,8 @@ fn second_token<'n>(net: &'n Net, exploration: &Exploration) -> Option<SecondTok
     Some(SecondToken { place: net.place(PlaceId::at(place)).name, firings })
 }
 
-/// What was explored: the line about markings and the lines behind that about safeness, and the same as data.
+/// Behaviour of an explored net: the line about markings, the lines after the one about safeness, and the data for
+/// JSON.
 fn behaviour(net: &Net, exploration: &Exploration, live: Option<Behaviour>) -> ((String, String), Value) {
     let figures = &exploration.figures;
     if exploration.stop != Stop::Complete {
@@ -166,7 +167,7 @@ fn behaviour(net: &Net, exploration: &Exploration, live: Option<Behaviour>) -> (
     ((markings, rest), facts)
 }
 
-/// The names of transitions, the first of them.
+/// Names of transitions, up to a limit.
 pub fn named(names: &[&str]) -> String {
     match names.len() {
         0 => String::new(),

@@ -1,4 +1,4 @@
-//! `petril net reduce`: a smaller net that answers the same question.
+//! `petril net reduce`: writes a smaller net that answers the same question.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! Runs of a net, and what branches off them, as text and as JSON.
+//! Runs of a net with their branches, as text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -8,13 +8,13 @@ use petril::printable::line;
 use petril::verdict::{Branch, Run};
 use serde_json::json;
 
-/// Formulas are cut off after so many letters.
+/// Upper bound on the length of a formula in characters; longer ones are cut off.
 const LONG: usize = 160;
 
-/// Branches from one marking beyond these are only counted.
+/// Upper bound on branches listed at one marking; the others are counted.
 const MANY: usize = 20;
 
-/// A line for each firing, and for what holds on the way.
+/// Text with a line for each firing and for each claim on the way.
 pub fn text(run: &Run, net: &Net) -> String {
     let mut out = String::new();
     write(run, net, 4, &mut out);
@@ -50,7 +50,7 @@ fn formula(formula: &Bound, net: &Net) -> String {
     }
 }
 
-/// The same as data.
+/// The run as JSON.
 pub fn json(run: &Run, net: &Net) -> serde_json::Value {
     let firings: Vec<&str> = run.firings.iter().map(|&id| net.transition(id).name).collect();
     let branch = |branch: &Branch| {

@@ -1,4 +1,4 @@
-//! The structure of a net as text and as JSON.
+//! Structure of a net as text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use super::args::NetInfo;
 use super::net_info::{NAMED, named};
 use super::report::counted;
 
-/// A structure and what is to be printed of it.
+/// Structure of a net, with the options of its output.
 pub struct Structure<'a> {
     pub net: &'a Net,
     pub summary: &'a Summary,
@@ -18,7 +18,7 @@ pub struct Structure<'a> {
 }
 
 impl Structure<'_> {
-    /// One line for each thing.
+    /// Summary with one line per fact.
     pub fn text(&self) -> String {
         let summary = self.summary;
         let (places, transitions) = (self.net.places().len(), self.net.transitions().len());
@@ -65,7 +65,7 @@ impl Structure<'_> {
         out
     }
 
-    /// The things themselves that were asked for.
+    /// Requested lists of invariants, siphons and traps.
     pub fn lists(&self) -> String {
         let mut out = String::new();
         let summary = self.summary;
@@ -92,7 +92,7 @@ impl Structure<'_> {
         out
     }
 
-    /// Everything as data.
+    /// Data as a JSON object.
     pub fn json(&self) -> Value {
         let summary = self.summary;
         let class = &summary.class;
@@ -180,7 +180,7 @@ impl Structure<'_> {
         }
     }
 
-    /// How many invariants there are of so many nodes.
+    /// Number of invariants of a net with this number of nodes.
     fn invariants<I>(&self, invariants: &Invariants<I>, nodes: usize) -> String {
         let count = invariants.found.len();
         let mut out = if invariants.all {
@@ -211,7 +211,7 @@ impl Structure<'_> {
         format!("{place}; {marking}")
     }
 
-    /// What siphons and traps say about behaviour.
+    /// Consequences of siphons and traps for behaviour.
     fn follows(&self) -> Vec<String> {
         let mut follows = Vec::new();
         follows.extend(self.summary.is_live.map(|live| if live { "live" } else { "not live" }.to_owned()));
@@ -246,7 +246,7 @@ fn found(sets: &Siphons) -> String {
     }
 }
 
-/// `a + 2 b`
+/// A sum such as `a + 2 b`.
 fn sum<'n>(terms: impl Iterator<Item = (&'n str, u64)>) -> String {
     let term = |(name, times): (&str, u64)| if times == 1 { name.to_owned() } else { format!("{times} {name}") };
     terms.map(term).collect::<Vec<_>>().join(" + ")

@@ -1,4 +1,4 @@
-//! Files out: whole or not at all, and never in the place of an input.
+//! Output files: written completely or not at all, and never over an input.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, Metadata};
@@ -10,22 +10,22 @@ use tempfile::NamedTempFile;
 
 use super::{Failure, guard, reason, shown};
 
-/// What writes a file, piece by piece: it may be larger than is good to hold in memory.
+/// Writer of a file's content, piece by piece: it may be too large to hold in memory.
 type Content<'c> = &'c dyn Fn(&mut dyn Write) -> io::Result<()>;
 
-/// The inputs that were read.
+/// Inputs read.
 static READ: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 
-/// Temporaries that have not taken their names yet.
+/// Temporary files not yet renamed.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Identity of a file, by whatever path or link it is reached.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Identity {
-    /// Device and number of a file that exists.
+    /// Device and inode number of an existing file.
     #[cfg(unix)]
     Node(u64, u64),
-    /// The path without links, of a file that does not exist yet; of what is not a file, as it was typed.
+    /// Path without links of a file that does not exist yet; path as typed of anything but a file.
     Path(PathBuf),
 }
 
@@ -56,7 +56,7 @@ impl Identity {
     }
 }
 
-/// Notes an input, so that no output takes its place. `-` is standard input, which may be a file.
+/// Records an input, so that no output overwrites it. `-` is standard input, which may be a file.
 pub fn has_read(path: &Path) {
     let path = if path == Path::new("-") { Path::new("/dev/stdin") } else { path };
     if path.is_file() {
@@ -64,7 +64,7 @@ pub fn has_read(path: &Path) {
     }
 }
 
-/// Refuses outputs of which two are one file, or one is an input that was read.
+/// Rejects outputs that are the same file, or an input.
 pub fn refuse<'p>(outputs: impl IntoIterator<Item = &'p PathBuf>) -> Result<(), Failure> {
     let mut seen = BTreeSet::new();
     for path in outputs {
@@ -85,8 +85,8 @@ fn refuse_input(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a file: to a temporary beside it first, which then takes its name. So there is never half a file. A file that is
-/// replaced keeps its mode. A device or a pipe is not replaced but written to, a link is followed.
+/// Writes a file: to a temporary file beside it first, which is then renamed, so that no partial file appears. A
+/// replaced file keeps its mode. A device or a pipe is written to, a link is followed.
 pub fn write(path: &Path, content: Content<'_>) -> Result<(), Failure> {
     refuse_input(path)?;
     let cannot = |error: Error| Failure::Message(format!("cannot write `{}`: {}", shown(path), reason(&error)));
@@ -95,18 +95,18 @@ pub fn write(path: &Path, content: Content<'_>) -> Result<(), Failure> {
         Ok(known) if known.is_file() => {
             fs::canonicalize(path).and_then(|path| replace(&path, Some(&known), content)).map_err(cannot)
         }
-        // Whoever reads may take any time.
+        // The reader may take any time.
         Ok(_) => guard::pause(|| File::create(path).and_then(|file| buffered(file, content).map(drop))).map_err(cannot),
         Err(_) => replace(&target(path), None, content).map_err(cannot),
     }
 }
 
-/// As [`write`], what is in memory already.
+/// As [`write`], for a text in memory.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     write(path, &|out| out.write_all(text.as_bytes()))
 }
 
-/// Removes what was not written to its end, before the process ends in the middle of its work.
+/// Removes unfinished files, before the process ends in the middle of its work.
 pub fn discard_unfinished() {
     for path in &*lock(&UNFINISHED) {
         let _ = fs::remove_file(path);
@@ -128,7 +128,7 @@ fn replace(path: &Path, known: Option<&Metadata>, content: Content<'_>) -> io::R
     Ok(())
 }
 
-/// A temporary on the list of those to remove.
+/// Temporary file registered for removal.
 struct Unfinished(PathBuf);
 
 impl Unfinished {
@@ -144,7 +144,7 @@ impl Drop for Unfinished {
     }
 }
 
-/// The folder of a file.
+/// Folder of a file.
 fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
@@ -152,7 +152,7 @@ fn folder(path: &Path) -> &Path {
 /// Target of a link to a file that does not exist.
 fn target(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
-    // A ring of links has no end; the system follows as many.
+    // Links may be cyclic; the system also follows 40 at most.
     for _ in 0..40 {
         let Ok(next) = fs::read_link(&path) else { break };
         path = folder(&path).join(next);
@@ -160,14 +160,14 @@ fn target(path: &Path) -> PathBuf {
     path
 }
 
-/// The last bytes are written here: what goes wrong with them would be lost when the buffer is dropped.
+/// Writes through a buffer and flushes it: an error in the last bytes would be lost when the buffer is dropped.
 fn buffered<W: Write>(file: W, content: Content<'_>) -> io::Result<W> {
     let mut out = BufWriter::with_capacity(1 << 16, file);
     content(&mut out)?;
     out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
-/// A temporary that may be read by whoever may read any other new file.
+/// Creates a temporary file with the usual permissions of new files.
 #[cfg(unix)]
 fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;

@@ -1,4 +1,4 @@
-//! Watching a search: figures on the terminal while it runs, and the limit of time.
+//! Observation of a search: figures on the terminal, and the limits.
 
 use std::cell::Cell;
 use std::sync::OnceLock;
@@ -13,23 +13,23 @@ use super::guard::{self, Reason};
 use super::memory;
 use super::sign_of_life::{self, in_short};
 
-/// Watches a search.
+/// Watcher of a search.
 pub struct Watcher {
     bar: ProgressBar,
-    /// Whether its figures are those of all the work.
+    /// Whether this is the only search, so that its figures are those of all the work.
     is_alone: bool,
     started: Instant,
     timeout: Option<Duration>,
-    /// MiB that may be in use.
+    /// Memory limit in MiB.
     memory: u64,
-    /// When the figures were last shown, in time since the start.
+    /// Time of the last display of figures, since the start.
     shown: Cell<Duration>,
 }
 
-/// How long work may take before anything is shown, and between two figures.
+/// Delay before figures are shown, and interval between them.
 const PAUSE: Duration = Duration::from_millis(250);
 
-/// More processors no machine has that is of use here; threads are started before anything else.
+/// Upper bound on threads, which are all started at once.
 const MAX_THREADS: usize = 1024;
 
 /// Sets the number of threads, once.
@@ -46,7 +46,7 @@ pub fn use_threads(limits: &Limits) -> Result<(), Failure> {
     error.as_ref().map_or(Ok(()), |error| Err(Failure::Message(format!("cannot use {threads} threads: {error}"))))
 }
 
-/// A bar on standard error, if that is a terminal, for this many steps of work.
+/// Progress bar on standard error for this number of steps, if that is a terminal.
 pub fn steps(count: usize, of: &'static str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} {msg}, {elapsed}") {
@@ -57,16 +57,16 @@ pub fn steps(count: usize, of: &'static str) -> ProgressBar {
 }
 
 impl Watcher {
-    /// Sets the number of threads, and begins to watch.
+    /// Sets the number of threads, and creates a watcher.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
         guard::listen();
         sign_of_life::begin();
-        // Drawn on standard error, and only if that is a terminal.
+        // The bar is drawn on standard error, and only if that is a terminal.
         Self::drawing(limits, ProgressDrawTarget::stderr(), true)
     }
 
-    /// Watches one search among several, and shows nothing.
+    /// Creates a watcher without display, for one of several searches.
     pub fn unseen(limits: &Limits) -> Result<Self, Failure> {
         Self::drawing(limits, ProgressDrawTarget::hidden(), false)
     }
@@ -83,7 +83,7 @@ impl Watcher {
         Ok(Self { bar, is_alone, started: Instant::now(), timeout, memory, shown: Cell::default() })
     }
 
-    /// Shows the figures; gives a reason to stop if time is up, or memory.
+    /// Updates the figures; returns a reason to stop when a limit on time or memory is exceeded.
     pub fn watch(&self, progress: &Progress) -> Option<String> {
         let elapsed = self.started.elapsed();
         let done = progress.expanded == progress.states;
@@ -114,7 +114,7 @@ impl Watcher {
             });
         }
         if done {
-            // What was explored within the limits is still judged.
+            // States explored within the limits are still checked.
             let time = self.timeout.filter(|&timeout| elapsed > guard::to_finish(timeout)).map(Reason::Time);
             return guard::asked_to_finish().or(time).map(|reason| reason.to_string());
         }
@@ -123,12 +123,12 @@ impl Watcher {
         guard::asked().or(time).or(memory).map(|reason| reason.to_string())
     }
 
-    /// The figures on the terminal, which can make room for something else.
+    /// Progress bar, which can make room for other output.
     pub fn figures(&self) -> ProgressBar {
         self.bar.clone()
     }
 
-    /// Does something while the figures are off the terminal.
+    /// Runs work while the figures are hidden.
     pub fn suspend<T>(&self, work: impl FnOnce() -> T) -> T {
         self.bar.suspend(work)
     }
@@ -141,12 +141,12 @@ impl Watcher {
 }
 
 impl Limits {
-    /// The limits the search itself keeps.
+    /// Limits enforced by the search itself.
     pub fn budget(&self) -> Budget {
         self.budget_of(Budget::default().states)
     }
 
-    /// The same where so many states are enough if nothing else is said.
+    /// As [`Limits::budget`], with another default limit on states.
     pub fn budget_of(&self, states: u64) -> Budget {
         let bytes = self.max_memory.unwrap_or_else(memory::default_limit).saturating_mul(1 << 20);
         Budget { states: self.max_states.unwrap_or(states), bytes }

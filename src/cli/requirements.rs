@@ -1,4 +1,4 @@
-//! What is asked, and what is assumed, from files, from the command line, and from the comments of a program.
+//! Requirements, assumptions, assertions and domains from files, the command line and program comments.
 
 use std::path::{Path, PathBuf};
 
@@ -19,14 +19,14 @@ use super::args::Check;
 use super::console::{Console, MAX_DIAGNOSTICS};
 use super::input::{MAX_TEXT, source};
 
-/// What was read of one text, before its names mean anything.
+/// Parsed text before name resolution.
 struct Text {
     file: RequirementFile,
     diagnostics: Vec<Diagnostic>,
     source: Source,
-    /// Whether it stands in the comments of the program.
+    /// Whether the text is in comments of the program.
     is_program: bool,
-    /// The description of its only requirement, if that is a sentence.
+    /// Description of its only requirement, if it parses as a pattern sentence.
     described: Option<Requirement>,
 }
 
@@ -36,13 +36,13 @@ impl Text {
     }
 }
 
-/// All that is asked, in the order in which it is answered.
+/// Parsed texts in the order of their answers.
 pub struct Asked {
     texts: Vec<Text>,
     failed: bool,
 }
 
-/// What is asked of a system, and what is assumed of it.
+/// Bound requirements and assumptions of a system.
 #[derive(Default)]
 pub struct Bound {
     pub requirements: Vec<(Requirement, Demand)>,
@@ -53,7 +53,7 @@ pub struct Bound {
 }
 
 impl Asked {
-    /// Reads the domains, requirements and requirement files of a command.
+    /// Reads the domains, fairness assumptions, requirements and requirement files of a command.
     pub fn read(arguments: &Check, console: &Console) -> Result<Self, Failure> {
         let mut asked = Self { texts: Vec::new(), failed: false };
         for (i, text) in arguments.domain.iter().enumerate() {
@@ -85,11 +85,11 @@ impl Asked {
         Ok(asked)
     }
 
-    /// Reads what stands in the comments of a program.
+    /// Reads the requirements in the comments of a program.
     pub fn read_comments(&mut self, program: &Source) {
         if let Some(text) = syntax::requirements_in_comments(program.text()) {
             let (file, diagnostics) = parse_requirements(&Source::new(program.name().to_owned(), text));
-            // Everything stands where it stands in the program.
+            // The positions are those of the whole program text.
             let source = Source::new(program.name().to_owned(), program.text());
             self.texts.push(Text { is_program: true, ..Text::new(file, diagnostics, source) });
         }
@@ -100,7 +100,7 @@ impl Asked {
         self.texts.push(Text::new(file, diagnostics, source));
     }
 
-    /// Reads a file of PLCverif's properties: each is a text of its own.
+    /// Reads the properties of a PLCverif file, each as its own text.
     fn read_properties(&mut self, file: Source) {
         let properties = match plcverif::properties(file.text()) {
             Ok(properties) => properties,
@@ -131,7 +131,7 @@ impl Asked {
         }
     }
 
-    /// The plants that files name, as paths from where the program runs.
+    /// Plants named by the files, as paths relative to the working directory.
     pub fn plants(&self) -> Vec<PathBuf> {
         let of_text = |text: &Text| {
             let folder = Path::new(text.source.name()).parent().unwrap_or(Path::new("")).to_owned();
@@ -140,7 +140,7 @@ impl Asked {
         self.texts.iter().flat_map(of_text).collect()
     }
 
-    /// The time from one scan to the next that files give. A second one is reported with the requirements.
+    /// Scan time given by the files. Conflicting values are reported with the requirements.
     pub fn scan_time(&mut self) -> Option<u64> {
         let mut first: Option<u64> = None;
         for text in &mut self.texts {
@@ -154,7 +154,7 @@ impl Asked {
         first
     }
 
-    /// The domains of a program's free inputs. What is wrong with them is reported with the requirements.
+    /// Domains of the free inputs. Errors are reported with the requirements.
     pub fn domains(&mut self, program: &FlatProgram, plant: &Plant) -> Domains {
         let mut domains = Domains::new();
         for text in &mut self.texts {
@@ -164,7 +164,7 @@ impl Asked {
         domains
     }
 
-    /// Everything else, bound.
+    /// Binds assumptions, assertions, fairness and requirements.
     pub fn bind(self, system: &System, view: View, console: &Console) -> Result<Bound, Failure> {
         let mut failed = self.failed;
         let mut bound = Bound::default();
@@ -226,7 +226,7 @@ impl Asked {
     }
 }
 
-/// The warning that the parameters of a property ask for the first of these, and its description for the second.
+/// Warning that the description of a property differs from its parameters, which are the ones checked.
 fn contradiction(requirement: &Requirement, [asked, described]: [&Demand; 2], system: &System) -> Option<Diagnostic> {
     let said = described.formula().filter(|&said| asked.formula() != Some(said))?;
     let message = "the description of this property says something else than its parameters";
@@ -234,10 +234,10 @@ fn contradiction(requirement: &Requirement, [asked, described]: [&Demand; 2], sy
     Some(Diagnostic::new(Code::PropertyDoubtful, requirement.span, message).help(help))
 }
 
-/// A formula of a pattern that is longer says less than the pattern.
+/// Maximum length of a formula shown instead of its pattern.
 const LONG: usize = 160;
 
-/// The requirement with the formula that its pattern stands for.
+/// Requirement with the formula of its pattern, unless that is too long.
 fn told(requirement: Requirement, demand: &Demand, system: &System) -> Requirement {
     let formula = demand.text(system).filter(|_| requirement.words.is_some());
     match formula.filter(|text| text.len() <= LONG) {
@@ -246,7 +246,7 @@ fn told(requirement: Requirement, demand: &Demand, system: &System) -> Requireme
     }
 }
 
-/// What was read, or what is wrong, as a list of at most one.
+/// Parse result as a list of at most one item and one of at most one error.
 fn split<T>(read: Result<T, Diagnostic>) -> (Vec<T>, Vec<Diagnostic>) {
     match read {
         Ok(read) => (vec![read], vec![]),

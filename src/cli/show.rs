@@ -1,4 +1,4 @@
-//! `--show`: the variables of a run that are asked for.
+//! `--show`: selection of the variables shown in traces.
 
 use glob::{MatchOptions, Pattern};
 use petril::diagnostic::nearest;
@@ -8,16 +8,16 @@ use petril::witness::Columns;
 
 use super::Failure;
 
-/// Stands for every variable.
+/// Keyword for all variables.
 const ALL: &str = "all";
 
-/// The columns of the variables that some pattern names.
+/// Columns of the variables matching any pattern.
 pub fn columns(program: &FlatProgram, patterns: &[String]) -> Columns {
     let patterns: Vec<Wanted> = words(patterns).map(Wanted::new).collect();
     Columns::chosen(program, &|id| patterns.iter().any(|pattern| pattern.names(program, id)))
 }
 
-/// Refuses patterns that name no variable of the program.
+/// Rejects patterns that match no variable of the program.
 pub fn refuse_unknown(program: &FlatProgram, patterns: &[String]) -> Result<(), Failure> {
     let all: Vec<VarId> = Columns::chosen(program, &|_| true).iter().collect();
     let names_some = |word: &&str| all.iter().any(|&id| Wanted::new(word).names(program, id));
@@ -28,7 +28,7 @@ pub fn refuse_unknown(program: &FlatProgram, patterns: &[String]) -> Result<(), 
     Err(Failure::Message(format!("--show: no variable of the program is called `{unknown}`\n  {help}")))
 }
 
-/// The words between commas; a comma within brackets belongs to an array's index.
+/// Items of comma-separated lists; commas within brackets belong to array indices.
 fn words(patterns: &[String]) -> impl Iterator<Item = &str> {
     let split = |pattern| {
         let mut depth = 0_usize;
@@ -44,15 +44,15 @@ fn words(patterns: &[String]) -> impl Iterator<Item = &str> {
     patterns.iter().map(String::as_str).flat_map(split).map(str::trim).filter(|word| !word.is_empty())
 }
 
-/// What one word of `--show` names.
+/// Item of `--show`.
 struct Wanted {
     is_all: bool,
-    /// Nothing if it cannot be a pattern.
+    /// None if it is not a valid pattern.
     pattern: Option<Pattern>,
 }
 
 impl Wanted {
-    /// A name, or a pattern with `*` and `?`: the brackets of an array's index stand for themselves.
+    /// A name, or a pattern with `*` and `?`; brackets are literal, for array indices.
     fn new(text: &str) -> Self {
         Self { is_all: text.eq_ignore_ascii_case(ALL), pattern: Pattern::new(&text.replace('[', "[[]")).ok() }
     }

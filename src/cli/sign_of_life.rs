@@ -1,4 +1,4 @@
-//! Signs of life where nobody sees figures: a line on standard error now and then, so that a log shows that work goes on.
+//! Heartbeat: periodic lines on standard error for logs, where no progress bar is visible.
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::{Mutex, Once, PoisonError};
@@ -7,22 +7,22 @@ use std::time::{Duration, Instant};
 
 use super::guard;
 
-/// The environment variable that says how many seconds pass between two lines; 0 for none.
+/// Environment variable for the seconds between two lines; 0 for none.
 const VARIABLE: &str = "PETRIL_PROGRESS";
 
-/// Time between two lines.
+/// Default interval between two lines.
 const PAUSE: Duration = Duration::from_secs(10);
 
-/// Work that goes on.
+/// Work in progress.
 struct Work {
     started: Instant,
-    /// What is known of it beside its phase.
+    /// Progress figures beside the phase.
     figures: String,
 }
 
 static WORK: Mutex<Option<Work>> = Mutex::new(None);
 
-/// Work begins. From now on there are lines, unless standard error is a terminal, which has its own figures.
+/// Starts work. From now on lines are printed, unless standard error is a terminal, which has its progress bar.
 pub fn begin() {
     static THREAD: Once = Once::new();
     set(Some(Work { started: Instant::now(), figures: String::new() }));
@@ -34,14 +34,14 @@ pub fn begin() {
     });
 }
 
-/// Work is at this point.
+/// Sets the progress figures.
 pub fn say(figures: String) {
     if let Some(work) = WORK.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         work.figures = figures;
     }
 }
 
-/// Work has come to its end.
+/// Ends work.
 pub fn end() {
     set(None);
 }
@@ -55,7 +55,7 @@ fn print(pause: Duration) {
         thread::sleep(pause);
         let line = WORK.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(line);
         if let Some((_, line)) = line.filter(|(elapsed, _)| *elapsed >= pause) {
-            // If nobody listens, so be it.
+            // Errors of standard error are ignored.
             drop(guard::pause(|| io::stderr().write_all(line.as_bytes())));
         }
     }
@@ -67,14 +67,14 @@ fn line(work: &Work) -> (Duration, String) {
     (elapsed, format!("petril: {} s, {what}\n", elapsed.as_secs()))
 }
 
-/// The time between two lines that is asked for.
+/// Interval from the environment; `None` if 0.
 fn pause() -> Option<Duration> {
     let asked = std::env::var(VARIABLE).ok().and_then(|text| text.trim().parse().ok());
     let asked = asked.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     Some(asked.unwrap_or(PAUSE)).filter(|pause| !pause.is_zero())
 }
 
-/// A number in few characters: 950, 4.2 k, 4.2 M.
+/// Number in short form: 950, 4.2 k, 4.2 M.
 pub fn in_short(number: u64) -> String {
     let units = [(1_000_000_000, "G"), (1_000_000, "M"), (1_000, "k")];
     match units.into_iter().find(|&(unit, _)| number >= unit) {

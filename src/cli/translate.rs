@@ -1,4 +1,4 @@
-//! `petril translate`: the net of a program and its plant, as a file.
+//! `petril translate`: export of the net of a program and its plant.
 
 use petril::draw::{self, positions};
 use petril::exchange::notes;
@@ -9,7 +9,7 @@ use super::console::Console;
 use super::format::Format;
 use super::{Failure, Outcome, input, net_convert, output, shown};
 
-/// The most nodes a picture shows of a program: its file has a tenth of a gigabyte then.
+/// Maximum number of nodes drawn of a program; the file has about 100 MB then.
 const MAX_DRAWN: usize = 100_000;
 
 pub fn run(arguments: &Translate, console: &Console) -> Outcome {

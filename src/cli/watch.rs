@@ -1,4 +1,4 @@
-//! `--watch`: checks again whenever a file changes that was read.
+//! `--watch`: repeats the check whenever an input file changes.
 
 use std::process::ExitCode;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -10,16 +10,16 @@ use super::console::Console;
 use super::seen::Seen;
 use super::{Failure, Outcome, guard, report::counted};
 
-/// How long nothing must happen until files are looked at: editors write in several steps.
+/// Quiet period before files are inspected: editors write in several steps.
 const QUIET: Duration = Duration::from_millis(100);
 
-/// How often somebody is asked to end, and files are looked at though nobody said that they changed: not all file systems say.
+/// Polling interval for interrupts and for changes that the file system does not report.
 const TICK: Duration = Duration::from_millis(200);
 
-/// The exit code of a program that was interrupted.
+/// Exit code after an interrupt.
 const INTERRUPTED: u8 = 130;
 
-/// Checks, and checks again, until it is interrupted. `check` prints what it finds.
+/// Repeats `check` on each change until interrupted.
 pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
     guard::listen();
     loop {
@@ -36,7 +36,7 @@ pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
         let watcher = notify::recommended_watcher(move |_| {
             let _ = heard.send(());
         });
-        // Without a watcher, files are looked at again and again.
+        // Without a watcher, files are polled.
         let _watcher = watcher.ok().map(|mut watcher| {
             for folder in seen.folders() {
                 let _ = watcher.watch(&folder, RecursiveMode::NonRecursive);
@@ -49,13 +49,13 @@ pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
     }
 }
 
-/// Waits until something is not what it was; whether it is so, and not the end.
+/// Waits for a change; false if interrupted.
 fn is_changed(seen: &Seen, events: &Receiver<()>) -> bool {
     loop {
         match events.recv_timeout(TICK) {
-            // Where something happens all the time, files are looked at all the same.
+            // Under continuous events, files are inspected nevertheless.
             Ok(()) => drop((0..20).take_while(|_| events.recv_timeout(QUIET).is_ok()).count()),
-            // Nobody listens.
+            // The watcher is gone.
             Err(RecvTimeoutError::Disconnected) => std::thread::sleep(TICK),
             Err(RecvTimeoutError::Timeout) => {}
         }

@@ -1,4 +1,4 @@
-//! A report together with what it is about, and what its forms have in common.
+//! A report together with its subject, and what its output formats have in common.
 
 use super::Provenance;
 use petril_base::printable;
@@ -12,24 +12,24 @@ use petril_logic::{Origin, View};
 /// A report, the system it is about, and the text of its program.
 #[derive(Clone, Copy, Debug)]
 pub struct Checked<'a> {
-    /// The system that was checked.
+    /// System that was checked.
     pub system: &'a System,
-    /// The text of the program.
+    /// Text of the program.
     pub source: &'a Source,
-    /// What came out.
+    /// Report of the check.
     pub report: &'a Report,
-    /// Where it comes from.
+    /// Provenance of the report.
     pub provenance: &'a Provenance,
 }
 
-/// What a run that goes with an answer is there for.
+/// Purpose of a run in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// It breaks the requirement.
+    /// The run violates the requirement.
     Counterexample,
-    /// It shows that something is possible.
+    /// The run shows that something is possible.
     Witness,
-    /// In it the premise of the requirement occurs.
+    /// The premise of the requirement occurs in the run.
     Example,
 }
 
@@ -46,24 +46,24 @@ impl Purpose {
 }
 
 impl<'a> Checked<'a> {
-    /// The requirements, then what was checked without asking.
+    /// Answers to the requirements, then those of built-in checks.
     pub fn answers(&self) -> impl Iterator<Item = &'a Answer> + use<'a> {
         self.report.answers.iter().chain(&self.report.checks)
     }
 
-    /// What a state is.
+    /// View of the check: one state per scan, or one per marking.
     #[must_use]
     pub fn view(&self) -> View {
         self.report.exploration.view
     }
 
-    /// The line of source, from 1, that a line of flat code, from 0, comes from.
+    /// Source line, from 1, of a line of flat code, from 0.
     #[must_use]
     pub fn source_line(&self, line: usize) -> usize {
         self.system.program.code.get(line).map_or(1, |code| self.source.line_of(code.span.start))
     }
 
-    /// The instruction of a line of flat code, from 0.
+    /// Instruction of a line of flat code, from 0.
     #[must_use]
     pub fn instruction(&self, line: usize) -> String {
         let program = &self.system.program;
@@ -71,13 +71,13 @@ impl<'a> Checked<'a> {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// A variable by its name.
+    /// Name of a variable.
     #[must_use]
     pub fn name(&self, variable: VarId) -> &'a str {
         &self.system.program.variable(variable).name
     }
 
-    /// Why the verdict is what it is, on one line, if there is something to say.
+    /// Reason for the verdict, on one line, if there is something to say.
     #[must_use]
     pub fn reason(&self, answer: &Answer) -> Option<String> {
         let reason = match &answer.outcome {
@@ -86,18 +86,18 @@ impl<'a> Checked<'a> {
             Outcome::Holds { .. } => answer.independent.map(|what| independence(what).to_owned()),
             Outcome::Violated(witness, _) => Some(self.notes(witness).collect::<Vec<_>>().join("; ")),
         };
-        // What is doubtful about the requirement goes with every verdict.
+        // Doubts about the requirement itself are reported with every verdict.
         let parts: Vec<String> = reason.into_iter().chain(answer.remark.clone()).collect();
         (!parts.is_empty()).then(|| printable::line(&parts.join("; ")))
     }
 
-    /// What a run shows, as sentences.
+    /// Facts shown by a run, as sentences.
     pub fn notes(&self, witness: &Witness) -> impl Iterator<Item = String> {
         let view = self.view();
         witness.notes.iter().map(move |note| printable::line(&note.sentence(view)))
     }
 
-    /// A run that goes with an answer, as a table, and what it shows, in plain text.
+    /// Table of a run with the facts it shows, as plain text.
     #[must_use]
     pub fn told(&self, answer: &Answer, witness: &Witness) -> String {
         let mut text = match &witness.trace {
@@ -123,7 +123,7 @@ impl<'a> Checked<'a> {
         text
     }
 
-    /// Why a run breaks a requirement, as sentences.
+    /// Diagnosis of a violation, as sentences.
     #[must_use]
     pub fn explained(&self, why: &Why) -> Vec<String> {
         let program = &self.system.program;
@@ -144,7 +144,7 @@ impl<'a> Checked<'a> {
         sentences.iter().map(|sentence| printable::line(sentence)).collect()
     }
 
-    /// Other values of inputs: "S1 = 0 instead of 1 in scan 2".
+    /// Input changes in words: "S1 = 0 instead of 1 in scan 2".
     #[must_use]
     pub fn changes(&self, changes: &[Change]) -> String {
         let one = |change: &Change| {
@@ -155,14 +155,14 @@ impl<'a> Checked<'a> {
         changes.iter().map(one).collect::<Vec<_>>().join(", ")
     }
 
-    /// Where a requirement stands, if it stands in a file: a formula of the command line does not.
+    /// Place of a requirement, unless it is a formula given on the command line.
     #[must_use]
     pub fn file_of(&self, answer: &'a Answer) -> Option<&'a Origin> {
         answer.origin.as_ref().filter(|origin| origin.file != format!("formula {}", answer.name))
     }
 }
 
-/// What a requirement does not depend on, in words.
+/// Independence of a requirement, in words.
 #[must_use]
 pub fn independence(what: Independence) -> &'static str {
     match what {
@@ -171,7 +171,7 @@ pub fn independence(what: Independence) -> &'static str {
     }
 }
 
-/// The runs that go with an answer, each with what it is there for.
+/// Runs of an answer, each with its purpose.
 pub fn runs(answer: &Answer) -> impl Iterator<Item = (Purpose, &Witness)> {
     let (violated, witness, example) = match &answer.outcome {
         Outcome::Violated(witness, _) => (Some(witness), None, None),
@@ -182,7 +182,7 @@ pub fn runs(answer: &Answer) -> impl Iterator<Item = (Purpose, &Witness)> {
     purposes.into_iter().zip([violated, witness, example]).filter_map(|(purpose, run)| Some((purpose, run?)))
 }
 
-/// The explanation of an answer.
+/// Diagnosis of a violated answer.
 #[must_use]
 pub fn why(answer: &Answer) -> Option<&Why> {
     match &answer.outcome {
@@ -191,7 +191,7 @@ pub fn why(answer: &Answer) -> Option<&Why> {
     }
 }
 
-/// The tags of an answer, each as it is written in a requirement file.
+/// Tags of an answer, as written in a requirement file.
 pub fn tags(answer: &Answer) -> impl Iterator<Item = String> {
     answer.tags.iter().map(|tag| match &tag.value {
         Some(value) => format!("{}: {value}", tag.name),

@@ -1,5 +1,5 @@
-//! Reports as JSON, for programs. Field names are part of the interface: they are only ever added to.
-//! `docs/schema/report.schema.json` says what may stand where.
+//! Reports as JSON, for programs. Field names are part of the interface: they are only ever added to. The schema is
+//! `docs/schema/report.schema.json`.
 
 use serde_json::{Map, Value, json};
 
@@ -12,7 +12,7 @@ use petril_check::witness::{Executed, FiringTrace, Scan, ScanTrace, story};
 use petril_lang::semantics::{Role, Type, VarId};
 use petril_logic::View;
 
-/// A last scan that takes more instructions is not told.
+/// Upper bound on the instructions of a last scan that is listed.
 const MAX_INSTRUCTIONS: usize = 1 << 20;
 
 /// A diagnostic: code, severity, message, file, line and column from 1, help.
@@ -30,7 +30,7 @@ pub fn diagnostic(diagnostic: &Diagnostic, source: &Source) -> Value {
     })
 }
 
-/// The report of a check; `by_line` tells the last scan of each run instruction by instruction, too.
+/// Report of a check; with `by_line`, the last scan of each run is listed instruction by instruction.
 #[must_use]
 pub fn report(checked: &Checked<'_>, by_line: bool) -> Value {
     let Checked { system, source, report, provenance } = *checked;
@@ -79,7 +79,7 @@ fn coverage(checked: &Checked<'_>, coverage: &Coverage) -> Value {
     })
 }
 
-/// The free inputs, each with the number of values that were tried.
+/// Free inputs, each with the number of values tried.
 fn inputs(system: &System) -> Vec<Value> {
     let one = |input: VarId| {
         let size = u64::try_from(system.domain(input).size()).unwrap_or(u64::MAX);
@@ -135,7 +135,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, by_line: bool) -> Value {
     })
 }
 
-/// Scans count from 1, lines too.
+/// Diagnosis of a violation; scans and lines count from 1.
 fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
     let value = |variable, pattern| variable_value(checked.system, variable, pattern);
     let writers = why.writers.iter().map(|writer| {
@@ -175,7 +175,8 @@ fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
 }
 
 fn trace(checked: &Checked<'_>, witness: &Witness, by_line: bool) -> Value {
-    // States of the scan view are the ends of scans, which count from 1; before the first firing there is a state 0.
+    // States of the scan view are ends of scans, which count from 1; the transition view has a state 0 before the first
+    // firing.
     let (mut document, from) = match &witness.trace {
         Trace::Scans(trace) => (scans(checked.system, trace), 1),
         Trace::Firings(trace) => (firings(checked.system, trace), 0),
@@ -183,7 +184,7 @@ fn trace(checked: &Checked<'_>, witness: &Witness, by_line: bool) -> Value {
     let notes = witness.notes.iter().map(|n| json!({ "first": n.first + from, "last": n.last + from, "text": n.text }));
     document["notes"] = notes.collect();
     if let (Trace::Scans(trace), true) = (&witness.trace, by_line) {
-        // A trace that does not replay has no verdict, and so is not here.
+        // A trace that does not replay has no verdict, and does not get here.
         let last = trace.scans.len().saturating_sub(1);
         let told = story(checked.system, trace, last, MAX_INSTRUCTIONS).unwrap_or_default();
         let lines = told.map(|scans| {
@@ -194,7 +195,7 @@ fn trace(checked: &Checked<'_>, witness: &Witness, by_line: bool) -> Value {
     document
 }
 
-/// An instruction that was executed. `result` is the current result after it.
+/// An executed instruction. `result` is the current result after it.
 fn executed(checked: &Checked<'_>, executed: &Executed) -> Value {
     let writes = executed.writes.map(|(variable, pattern)| {
         json!({
@@ -217,7 +218,7 @@ fn variable_value(system: &System, variable: VarId, pattern: u64) -> Value {
     value(system.program.variable(variable).ty, pattern)
 }
 
-/// A truth value, or a number; times count milliseconds.
+/// A Boolean or a number; times are in milliseconds.
 fn value(ty: Type, pattern: u64) -> Value {
     let number = ty.number(pattern);
     match (u64::try_from(number), i64::try_from(number)) {
@@ -227,7 +228,7 @@ fn value(ty: Type, pattern: u64) -> Value {
     }
 }
 
-/// `loop_start` is the number of the scan whose end the last scan repeats.
+/// A run of scans. `loop_start` is the number of the scan whose end the last scan repeats.
 fn scans(system: &System, trace: &ScanTrace) -> Value {
     let one = |(position, scan): (usize, &Scan)| {
         let name = |id: VarId| system.program.variable(id).name.clone();
@@ -262,7 +263,7 @@ fn scans(system: &System, trace: &ScanTrace) -> Value {
     })
 }
 
-/// `loop_start` is the number of firings after which the marking was the one the last firing leads to.
+/// A run of firings. `loop_start` is the number of firings before the marking that the last firing returns to.
 fn firings(system: &System, trace: &FiringTrace) -> Value {
     let one = |&transition: &petril_net::net::TransitionId| {
         let role = system.transitions[transition.index()];

@@ -1,7 +1,7 @@
-//! JUnit XML, as continuous integration reads it: the program is a test suite, each requirement and each check a test case.
+//! JUnit XML for continuous integration: the program is a test suite, each requirement and each check a test case.
 //!
-//! What is violated is a failure, what is unknown an error: neither is to pass unseen. Documents are valid under both schemas
-//! in use, that of Apache Ant and that of Jenkins, which leaves tags no other place than properties of the suite.
+//! A violation is a failure, an unknown verdict an error: neither passes unnoticed. Documents are valid under both
+//! schemas in use, that of Apache Ant and that of Jenkins, which allow tags only as properties of the suite.
 
 use std::io;
 
@@ -22,7 +22,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
     write_all(&[(&checked.system.program.name, *checked, stamp)])
 }
 
-/// Writes reports as one test suite each, with a name.
+/// Writes each report as a test suite with a name.
 #[must_use]
 pub fn write_all(reports: &[(&str, Checked<'_>, Stamp)]) -> String {
     to_text(|out| {
@@ -117,7 +117,7 @@ fn case(xml: &mut Xml<'_>, class: &str, checked: &Checked<'_>, answer: &Answer) 
         .map(drop)
 }
 
-/// What was asked, in all words there are for it.
+/// Requirement in all its wordings.
 fn head(answer: &Answer) -> String {
     let mut head = String::new();
     let said = [answer.sentence.as_ref(), answer.words.as_ref(), Some(&answer.formula)];
@@ -132,13 +132,13 @@ fn head(answer: &Answer) -> String {
     head
 }
 
-/// What holds and yet is worth a word.
+/// Remarks on requirements that hold.
 fn output(checked: &Checked<'_>) -> String {
     let holds = checked.answers().filter(|answer| answer.outcome.verdict() == Verdict::Holds);
     holds.filter_map(|answer| Some(format!("{}: {}\n", line(&answer.name), checked.reason(answer)?))).collect()
 }
 
-/// A text of several lines without what XML cannot hold.
+/// A text of several lines without characters that XML cannot represent.
 fn lines(text: &str) -> String {
     printable::lines(text).into_owned()
 }

@@ -1,7 +1,8 @@
-//! Nets from and to the formats of other tools, properties of nets, and reports for programs; one module for each format.
+//! Nets in the formats of other tools, properties of nets, and reports for programs; one module per format.
 //!
-//! Readers take a text and give a [`Located`](petril_net::net::Located) net, or what it says of nets, or everything that is wrong
-//! with the text; writers give a text. What a safe place/transition net cannot express is refused, never left out in silence.
+//! Readers turn a text into a [`Located`](crate::net::Located) net or into properties, or report everything that is
+//! wrong with it; writers produce a text. Constructs that a safe place/transition net cannot express are rejected,
+//! never silently dropped.
 
 mod checked;
 mod notes;

@@ -1,10 +1,10 @@
-//! What can be said about the nodes of a net beside its structure.
+//! Annotations of the nodes of a net.
 
 use petril_base::source::Source;
 use petril_check::translate::{Part, PlaceRole, System, TransitionRole};
 use petril_net::format::pnml::{Note, Notes};
 
-/// Notes on what the nodes of a system net stand for; `source` is the program's text. Lines of code and of text count from 1.
+    /// Meaning of the nodes of a system net; `source` is the program's text. Lines of code and of text count from 1.
 #[must_use]
 pub fn notes(system: &System, source: &Source) -> Notes {
     let places = system.places.iter().map(|&role| place(system, source, role)).collect();
@@ -36,7 +36,7 @@ fn place(system: &System, source: &Source, role: PlaceRole) -> Note {
     match role {
         PlaceRole::Bit { variable: id, bit, value } => {
             note.push(variable(id));
-            // A `BOOL` is all of its bit.
+            // A `BOOL` has only one bit.
             note.extend((!system.program.variable(id).ty.is_bool()).then(|| self::bit(bit)));
             note.push(self::value(value));
         }
@@ -92,7 +92,7 @@ fn value(value: bool) -> (&'static str, String) {
     ("value", u8::from(value).to_string())
 }
 
-/// The line of code, and the line of the program's text it comes from; `End` comes from none.
+/// Line of code with the source line it comes from; `End` has none.
 fn line(system: &System, source: &Source, line: usize) -> Note {
     let code = system.program.code.get(line);
     let from = code.map(|code| ("source-line", source.line_of(code.span.start).to_string()));

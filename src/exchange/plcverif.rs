@@ -1,4 +1,4 @@
-//! Properties of PLCverif in JSON, as its benchmarks have them: patterns with their parameters.
+//! Properties of PLCverif in JSON, as in its benchmarks: patterns with parameters.
 //!
 //! ```json
 //! { "id": "press", "properties_to_be_validated": [ { "property_description": "…", "property": {
@@ -12,35 +12,35 @@ use serde_json::{Map, Value};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A property of a file, before it is read as a requirement.
+/// Property in a file, before it is parsed as a requirement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
-    /// Its name: that of the task and its position, counted from 1.
+    /// Name: that of the task and the property's position, from 1.
     pub name: String,
-    /// What it says in the words of its author.
+    /// Sentence given by the author.
     pub sentence: Option<String>,
-    /// What it asks for.
+    /// Question asked.
     pub asked: Asked,
 }
 
-/// What a property asks for.
+/// Question of a property.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// A pattern: its short form, and its sentence with the parameters put in, which may be any prose.
+    /// Pattern: its short form, and its sentence with the parameters filled in, which may be arbitrary prose.
     Pattern {
         /// `pattern-implication({a}, {b})`
         short: String,
         /// `If {a} is true …`
         described: Option<String>,
     },
-    /// That the assertions of the program hold.
+    /// The assertions of the program hold.
     Assertions,
 }
 
-/// The properties of a file.
+/// Reads the properties of a file.
 ///
 /// # Errors
-/// The text is no JSON, or has no properties, or one that is none.
+/// The text is not JSON, has no properties, or has an invalid one.
 pub fn properties(text: &str) -> Result<Vec<Property>, Diagnostic> {
     let refused = |span, message: String| {
         let help = "properties are like `{ \"property\": { \"job_req\": \"pattern\", \"pattern_id\": \"pattern-invariant\", \
@@ -77,11 +77,11 @@ fn asked(property: &Map<String, Value>) -> Option<Asked> {
         "assertion" => Some(Asked::Assertions),
         "pattern" => {
             let pattern = property.get("pattern_id")?.as_str()?;
-            // Places are numbered, by some authors from 0 and by others from 1.
+            // Parameters are numbered from 0 by some authors and from 1 by others.
             let given = property.get("pattern_params")?.as_object()?;
             let mut parameters: Vec<(u32, &str)> = Vec::new();
             for (place, parameter) in given {
-                // A brace would end the place it is put into.
+                // A brace would end the group that the parameter is put into.
                 let parameter = parameter.as_str().filter(|parameter| !parameter.contains(['{', '}']))?;
                 parameters.push((place.parse().ok()?, parameter));
             }
@@ -99,7 +99,7 @@ fn asked(property: &Map<String, Value>) -> Option<Asked> {
     }
 }
 
-/// A parameter in braces, so that nothing in it reaches beyond it; a duration stands without.
+/// Puts a parameter in braces, so that no part of it interacts with its context; a duration stays as it is.
 fn set_off(parameter: &str) -> String {
     let text = one_line(parameter);
     let is_duration = text.starts_with("T#") || text.ends_with('s') && text.starts_with(|c: char| c.is_ascii_digit());

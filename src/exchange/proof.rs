@@ -1,4 +1,4 @@
-//! Proofs against specifications as JSON. Field names are part of the interface: they are only ever added to.
+//! Proofs of safety functions as JSON. Field names are part of the interface: they are only ever added to.
 
 use serde_json::{Map, Value, json};
 
@@ -86,7 +86,7 @@ fn error(subject: &Subject<'_>, failure: Failure, source: &Source) -> Value {
     }
 }
 
-/// A scan: the variables it read, and what each signal was.
+/// A scan: variables read, and the value of each signal.
 fn told(subject: &Subject<'_>, scan: &Scan) -> Value {
     let inputs = scan.given.inputs.iter();
     let inputs: Map<String, Value> = inputs
@@ -100,7 +100,7 @@ fn told(subject: &Subject<'_>, scan: &Scan) -> Value {
     let computed = subject.claims.iter();
     let computed: Map<String, Value> =
         computed.map(|claim| (signal(claim.signal), (scan.memory[claim.variable.0] == 1).into())).collect();
-    // What a scan that fails leaves means nothing.
+    // The values computed by a failing scan are meaningless.
     let computed = scan.failure.is_none().then_some(computed);
     json!({ "variables": inputs, "inputs": signals, "specified": specified, "computed": computed })
 }

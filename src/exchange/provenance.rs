@@ -1,24 +1,24 @@
-//! Where a report comes from: the tool, the command, and the hashes of everything that was read.
+//! Provenance of a report: the tool, the command, and the hashes of everything read.
 
 use serde_json::{Value, json};
 
 use petril_base::printable::line;
 
-/// Version of this program.
+/// Version of Petril.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Commit it was built from, in full, with `-modified` behind it if there were changes beside it; `None` if it is not known, and in a
-/// debug build.
+/// Full commit of the build, with the suffix `-modified` if there were uncommitted changes; `None` if not known, and in
+/// a debug build.
 pub const COMMIT: Option<&str> = if env!("PETRIL_COMMIT").is_empty() { None } else { Some(env!("PETRIL_COMMIT")) };
 
-/// What a report rests on beside its answers. The library reads no files and no command line; whoever asks for a report does.
+/// Provenance data that the caller supplies. The library reads neither files nor command line.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
-    /// The words of the command line.
+    /// Words of the command line.
     pub command: Vec<String>,
-    /// Each file that was read, in the order of reading, with its SHA-256 in hexadecimal digits.
+    /// Files read, in the order of reading, with their SHA-256 in hexadecimal digits.
     pub inputs: Vec<(String, String)>,
-    /// SHA-256 of all options as they were understood, in hexadecimal digits.
+    /// SHA-256 of all options as parsed, in hexadecimal digits.
     pub options: String,
 }
 
@@ -29,7 +29,7 @@ impl Provenance {
         format!("petril {}", env!("PETRIL_VERSION"))
     }
 
-    /// The command as a shell takes it, on one line.
+    /// Command line quoted for a shell, on one line.
     #[must_use]
     pub fn command_line(&self) -> String {
         let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
@@ -40,14 +40,14 @@ impl Provenance {
         self.command.iter().map(quoted).collect::<Vec<_>>().join(" ")
     }
 
-    /// The files that were read, each with its hash, on one line.
+    /// Files read, each with its hash, on one line.
     #[must_use]
     pub fn files(&self) -> String {
         let inputs = self.inputs.iter().map(|(file, hash)| format!("{} {hash}", line(file)));
         inputs.collect::<Vec<_>>().join("; ")
     }
 
-    /// Everything as data.
+    /// Data as a JSON object.
     #[must_use]
     pub fn json(&self) -> Value {
         let input = |(file, hash): &(String, String)| json!({ "file": file, "sha256": hash });
@@ -61,7 +61,7 @@ impl Provenance {
         })
     }
 
-    /// Everything as pairs of a word and a text on one line.
+    /// Data as pairs of a label and a line of text.
     #[must_use]
     pub fn pairs(&self) -> Vec<(&'static str, String)> {
         let inputs = self.inputs.iter().map(|(file, hash)| ("input", format!("{}, sha256 {hash}", line(file))));

@@ -1,4 +1,4 @@
-//! Runs in the reports of `petril check --json`, to be made again.
+//! Runs recorded in reports of `petril check --json`, to be repeated.
 
 use serde_json::{Map, Value};
 
@@ -9,34 +9,34 @@ use petril_check::witness::{PlantMove, Scan};
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 
-/// A run of the scan view, as a report has it.
+/// Run of the scan view, as recorded in a report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recorded {
-    /// The requirement whose run it is.
+    /// Requirement that the run belongs to.
     pub requirement: String,
-    /// What is done before each scan.
+    /// Plans of the scans.
     pub plans: Vec<Plan>,
     /// For a lasso, the position of the scan whose end the last scan repeats.
     pub loop_start: Option<usize>,
-    /// What it shows, where.
+    /// Facts shown by the run, with their positions.
     pub notes: Vec<Note>,
     scans: Vec<Expected>,
 }
 
-/// What a scan leads to.
+/// Recorded end of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Expected {
-    /// Values of inputs, and of everything else if the scan ends, as patterns.
+    /// Values of inputs, and of all other variables if the scan ends, as bit patterns.
     values: Vec<(VarId, u64)>,
     ends: bool,
 }
 
-/// The run of a requirement, or of the first that is violated, or else of the first that has one.
+/// Extracts the run of a requirement; by default that of the first violated one, or else of the first that has a run.
 ///
-/// Without a plant, the inputs get the values that they had. With one, it does what it did.
+/// With a plant, its recorded moves are repeated; without one, the recorded input values.
 ///
 /// # Errors
-/// As a sentence: there is no such run, or it cannot be one of this program and plant.
+/// A sentence: the run is missing, or does not fit this program and plant.
 pub fn recorded(report: &Value, requirement: Option<&str>, system: &System) -> Result<Recorded, String> {
     let list = |name: &str| report[name].as_array().map(Vec::as_slice).unwrap_or_default();
     let answers: Vec<&Value> = list("requirements").iter().chain(list("checks")).collect();
@@ -90,7 +90,7 @@ pub fn recorded(report: &Value, requirement: Option<&str>, system: &System) -> R
 }
 
 impl Recorded {
-    /// What is done before a scan, by its position. A lasso goes round for ever; behind another run nothing changes.
+    /// Plan of a scan, by position. A lasso is repeated for ever; after another run nothing changes.
     #[must_use]
     pub fn plan(&self, position: usize) -> Plan {
         let count = self.plans.len();
@@ -102,7 +102,7 @@ impl Recorded {
         }
     }
 
-    /// Where a scan, by its position, differs from what was recorded, as a sentence.
+    /// Difference between a scan, by position, and the recorded one, as a sentence.
     #[must_use]
     pub fn difference(&self, program: &FlatProgram, position: usize, scan: &Scan) -> Option<String> {
         let expected = self.scans.get(position)?;
@@ -127,7 +127,7 @@ impl Recorded {
     }
 }
 
-/// The run that goes with an answer: what breaks the requirement or shows it, or else an example of its premise.
+/// Run of an answer: its trace, or else the example of its premise.
 fn run(answer: &Value) -> &Value {
     if answer["trace"].is_null() { &answer["example"] } else { &answer["trace"] }
 }
@@ -157,7 +157,7 @@ fn read(scan: &Value, system: &System) -> Result<(Plan, Expected), String> {
     Ok((plan, Expected { values, ends }))
 }
 
-/// The plant's transition of a name.
+/// Plant transition of a name.
 fn find(system: &System, name: &str) -> Option<PlantMove> {
     system.plant.components.iter().enumerate().find_map(|(component, own)| {
         let transition = own.transitions.iter().position(|transition| transition.name == name)?;
@@ -165,7 +165,7 @@ fn find(system: &System, name: &str) -> Option<PlantMove> {
     })
 }
 
-/// The values of all variables of a role.
+/// Values of all variables of a role.
 fn group(scan: &Value, key: &str, role: Role, program: &FlatProgram) -> Result<Vec<(VarId, u64)>, String> {
     let empty = Map::new();
     let given = scan[key].as_object().unwrap_or(&empty);

@@ -1,5 +1,5 @@
-//! Reports as tables (CSV, RFC 4180): one row for each requirement, check, assumption and warning; and the inputs of a run, one row a scan, as
-//! `petril simulate --inputs` reads them.
+//! Reports as tables (CSV, RFC 4180), one row for each requirement, check, assumption and warning; and the inputs of a
+//! run, one row per scan, as read by `petril simulate --inputs`.
 
 use super::checked::{Checked, runs, tags, why};
 use super::{Provenance, table};
@@ -8,7 +8,7 @@ use petril_check::verdict::{Answer, Outcome, Trace};
 use petril_check::witness::firing_story;
 use petril_lang::semantics::{Role, VarId};
 
-/// The columns of a report.
+/// Columns of a report.
 const COLUMNS: [&str; 21] = [
     "kind",
     "name",
@@ -33,10 +33,10 @@ const COLUMNS: [&str; 21] = [
     "command",
 ];
 
-/// Writes a report. `length` counts scans, in the transition view firings; `repeats` is the one to which the last one leads
-/// back; `written_at` are the lines of source that wrote what breaks the requirement; `known` is whether the answer is from an
-/// earlier run; `inputs` are the files that were read, each with its SHA-256, and `options` is that of all options. What is
-/// assumed, and what was warned of, stands in the column `sentence` of rows of its own, behind the others.
+/// Writes a report. `length` counts scans, or firings in the transition view; `repeats` is the one that the last one
+/// returns to; `written_at` lists the source lines that wrote the values at fault; `known` says whether the answer
+/// comes from an earlier run; `inputs` lists the files read, each with its SHA-256, and `options` is the SHA-256 of all
+/// options. Assumptions and warnings have rows of their own after the others, with the text in the column `sentence`.
 #[must_use]
 pub fn write(checked: &Checked<'_>) -> String {
     let kinds = [("requirement", &checked.report.answers), ("check", &checked.report.checks)];
@@ -100,8 +100,8 @@ fn row(checked: &Checked<'_>, kind: &str, answer: &Answer) -> Vec<String> {
     ]
 }
 
-/// The inputs of a run, for `petril simulate --inputs`: their names, then a row for each scan that begins. Truth values are 0
-/// and 1, times milliseconds.
+/// Inputs of a run, for `petril simulate --inputs`: a row of names, then a row for each scan that begins. Booleans are
+/// 0 and 1, times are in milliseconds.
 #[must_use]
 pub fn inputs(system: &System, trace: &Trace) -> String {
     let program = &system.program;
@@ -123,7 +123,7 @@ pub fn inputs(system: &System, trace: &Trace) -> String {
             row(&values)
         })),
         Trace::Firings(trace) => {
-            // The trace has been replayed before, so this replay does not fail either.
+            // The trace was replayed before, so this replay does not fail.
             let mut begun = false;
             for firing in firing_story(system, trace).unwrap_or_default() {
                 if let Some((input, value)) = firing.copied {

@@ -1,8 +1,8 @@
-//! SARIF 2.1.0 (OASIS), as viewers of static analysis read it: each requirement and check is a rule; what is violated, and what
-//! is unknown, is a result.
+//! SARIF 2.1.0 (OASIS) for viewers of static analysis: each requirement and check is a rule; each violation and each
+//! unknown verdict is a result.
 //!
-//! A result points at the instruction that wrote the value which breaks the requirement, and steps through the last scan of
-//! the run. What holds gives no result: in continuous integration every result is an alert.
+//! A result points at the instruction that wrote the value at fault, and steps through the last scan of the run.
+//! Requirements that hold have no result: in continuous integration every result is an alert.
 
 use serde_json::{Map, Value, json};
 
@@ -17,12 +17,11 @@ use petril_lang::flat::{Hazard, value_text};
 use petril_lang::semantics::Role;
 use petril_logic::Origin;
 
-/// A last scan that takes more instructions is not stepped through.
+/// Upper bound on the instructions of a last scan that is stepped through.
 const MAX_INSTRUCTIONS: usize = 1 << 16;
-/// A code flow has at most this many locations, the last ones.
+/// Upper bound on the locations of a code flow; the last ones are kept.
 const MAX_LOCATIONS: usize = 1000;
-/// When the code flows of all results have this many locations, the others tell only what changed: a file may not be too large for
-/// those who take it.
+/// Total number of locations after which code flows contain only changes: consumers limit the file size.
 const MAX_ALL: usize = 8000;
 
 /// Writes a report as one run of the tool.
@@ -66,7 +65,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> Value {
     })
 }
 
-/// The program, then everything else that was read, with their hashes.
+/// Files read, the program first, with their hashes.
 fn artifacts(checked: &Checked<'_>) -> Vec<Value> {
     let program = checked.source.name();
     let mut files = vec![json!({ "location": artifact(program), "sourceLanguage": "iec61131-3-il" })];
@@ -92,7 +91,7 @@ fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
         "defaultConfiguration": { "level": level(answer) },
         "properties": { "tags": tags(answer).collect::<Vec<_>>(), "formula": answer.formula },
     });
-    // What holds gives no result, which would say it.
+    // Requirements that hold have no result to carry the reason.
     if answer.outcome.verdict() == Verdict::Holds
         && let Some(reason) = checked.reason(answer)
     {
@@ -104,7 +103,7 @@ fn rule(checked: &Checked<'_>, answer: &Answer) -> Value {
     rule
 }
 
-/// How bad it is if a requirement is violated: what its tag `severity` says; without one, as bad as can be.
+/// Level of a violated requirement: by its tag `severity`; without one, the highest.
 fn level(answer: &Answer) -> &'static str {
     let severity = answer.tags.iter().find(|tag| tag.name.eq_ignore_ascii_case("severity"));
     match severity.and_then(|tag| tag.value.as_deref()).map(str::to_ascii_lowercase).as_deref() {
@@ -136,7 +135,7 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize
         _ => Vec::new(),
     };
     let mut places: Vec<Value> = writers.collect();
-    // The last writer is the nearest to the break. An error breaks where it happens.
+    // The last writer is closest to the violation. An error is located where it occurs.
     places.reverse();
     if let Some((line, hazard)) = met(answer) {
         places.insert(0, at_line(checked, line, &hazard.to_string()));
@@ -172,7 +171,7 @@ fn result(checked: &Checked<'_>, answer: &Answer, index: usize, room: &mut usize
     Some(result)
 }
 
-/// The error that the last scan of a run meets.
+/// Error met by the last scan of a run.
 fn met(answer: &Answer) -> Option<(usize, Hazard)> {
     match &answer.outcome {
         Outcome::Violated(Witness { trace: Trace::Scans(trace), .. }, _) => trace.scans.last()?.hazard,
@@ -180,7 +179,7 @@ fn met(answer: &Answer) -> Option<(usize, Hazard)> {
     }
 }
 
-/// The last scan of a run, instruction by instruction.
+/// Last scan of a run, instruction by instruction.
 fn steps(checked: &Checked<'_>, witness: &Witness, room: &mut usize) -> Vec<Value> {
     let (scan, instructions): (usize, Vec<Executed>) = match &witness.trace {
         Trace::Scans(trace) => {
@@ -227,12 +226,12 @@ fn steps(checked: &Checked<'_>, witness: &Witness, room: &mut usize) -> Vec<Valu
     let all = instructions.iter().enumerate().skip(from);
     let has_room = instructions.len() - from <= *room;
     *room -= if has_room { instructions.len() - from } else { 0 };
-    // Something is told of every run: where nothing changes, its last instruction.
+    // Every run has at least one location: if nothing changes, its last instruction.
     let last = instructions.len().saturating_sub(1);
     all.filter(|&(i, executed)| has_room || i == last || is_essential(executed)).map(one).collect()
 }
 
-/// The piece of the program that a line of flat code comes from.
+/// Location of a line of flat code in the program.
 fn at_line(checked: &Checked<'_>, from: usize, message: &str) -> Value {
     let source = checked.source;
     let mut region = json!({ "startLine": checked.source_line(from) });
@@ -258,7 +257,7 @@ fn located(origin: &Origin, message: &str) -> Value {
     })
 }
 
-/// A file as a URI reference: relative to where the tool was run, unless its name is absolute.
+/// A file as a URI reference: relative to the working directory, unless its name is absolute.
 fn artifact(file: &str) -> Value {
     let mut uri = String::new();
     for byte in file.replace('\\', "/").bytes() {

@@ -1,21 +1,21 @@
-//! When a report was made. The library does not know the clock; whoever asks for a report does.
+//! Time stamp of a report. The library does not read the clock; its caller does.
 
 use std::fmt;
 
-/// A point in time, and how long the check took that ended then.
+/// Time at which a check ended, and its duration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stamp {
     /// Seconds since the beginning of 1970, in UTC.
     pub seconds: u64,
-    /// How many seconds the check took.
+    /// Duration of the check in seconds.
     pub took: f64,
 }
 
-/// The last second of the year 9999, the last that ISO 8601 writes in four digits.
+/// Last second of the year 9999, the last that ISO 8601 writes with four digits.
 const LATEST: u64 = 253_402_300_799;
 
 impl fmt::Display for Stamp {
-    /// As in ISO 8601, in UTC, without a zone: `2026-03-01T09:30:00`.
+    /// ISO 8601 format, in UTC, without a zone: `2026-03-01T09:30:00`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let seconds = self.seconds.min(LATEST);
         let (mut days, time) = (seconds / 86_400, seconds % 86_400);

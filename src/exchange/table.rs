@@ -1,14 +1,14 @@
-//! Tables as CSV (RFC 4180) in which every cell is one line of printable text, and none a formula to a spreadsheet.
+//! Tables as CSV (RFC 4180) in which every cell is one line of printable text, and none is a formula to a spreadsheet.
 //!
-//! Spreadsheets compute what begins with `=`, `+`, `-` or `@`; a `'` before it makes it text (OWASP, *CSV Injection*).
-//! Numbers stay as they are.
+//! Spreadsheets evaluate cells that begin with `=`, `+`, `-` or `@`; a `'` before it makes the cell a text (OWASP, *CSV
+//! Injection*). Numbers stay as they are.
 
 use std::io;
 
 use petril_base::printable::line;
 use petril_base::to_text;
 
-/// Signs that begin a formula, those of full width too.
+/// Characters that begin a formula, including their full-width forms.
 const BEGINNINGS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
 
 /// Writes rows, which may differ in length.
@@ -23,14 +23,14 @@ pub fn write(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     })
 }
 
-/// A text as a cell.
+/// Encodes a text as a cell.
 fn cell(text: &str) -> String {
     let text = line(text);
     let is_formula = text.trim_start().starts_with(BEGINNINGS) && text.parse::<f64>().is_err();
     if is_formula { format!("'{text}") } else { text }
 }
 
-/// The text of a cell that [`write`] made.
+/// Decodes a cell written by [`write`].
 pub fn uncovered(cell: &str) -> &str {
     cell.strip_prefix('\'').filter(|text| text.trim_start().starts_with(BEGINNINGS)).unwrap_or(cell)
 }

@@ -1,7 +1,7 @@
 //! Runs as value change dumps (VCD, IEEE 1364-2005, clause 18), which every waveform viewer reads.
 //!
-//! A variable has its initial value at time 0, and from the end of each scan on the value it has there. Time counts
-//! milliseconds; scans follow each other in the program's scan time. Parts of an instance or a structure stand in a scope.
+//! A variable has its initial value at time 0, and its value at the end of each scan from then on. Time is in
+//! milliseconds; scans are one scan cycle of the program apart. Members of an instance or a structure form a scope.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,8 +12,7 @@ use petril_check::witness::{Scan, ScanTrace};
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Kind, Role, VarId};
 
-/// A trace with all declared variables. The title says what is shown. Values that are not known, since their scan never
-/// ends, are `x`.
+/// Writes a trace with all declared variables, under a title. Unknown values, after a scan that never ends, are `x`.
 #[must_use]
 pub fn write(system: &System, trace: &ScanTrace, title: &str) -> String {
     let program = &system.program;
@@ -30,7 +29,7 @@ pub fn write(system: &System, trace: &ScanTrace, title: &str) -> String {
     write_rows(program, &remarks, rows)
 }
 
-/// The value of a variable at the end of a scan, if it is known.
+/// Value of a variable at the end of a scan, if known.
 fn value(program: &FlatProgram, scan: &Scan, id: VarId) -> Option<u64> {
     match &scan.end {
         Some(end) => Some(end.memory[id.0]),
@@ -41,7 +40,8 @@ fn value(program: &FlatProgram, scan: &Scan, id: VarId) -> Option<u64> {
     }
 }
 
-/// A row for each scan: the values of the declared variables at its end, in their order, as patterns; `None` is not known.
+/// Writes one row per scan: values of the declared variables at its end, in their order, as bit patterns; `None` if not
+/// known.
 pub fn write_rows(
     program: &FlatProgram,
     remarks: &[String],
@@ -73,13 +73,13 @@ pub fn write_rows(
     out
 }
 
-/// A text on one line that nothing in it can end.
+/// A comment of one line; the text cannot end it early.
 fn comment(text: &str) -> String {
     let words: Vec<String> = text.split_whitespace().map(|word| word.replace("$end", "$ end")).collect();
     format!("$comment {} $end\n", printable::line(&words.join(" ")))
 }
 
-/// The line that gives a variable a value.
+/// Line that assigns a value to a variable.
 fn change(program: &FlatProgram, id: VarId, number: usize, value: Option<u64>, out: &mut String) {
     let code = code(number);
     let _ = match (program.variable(id).ty.is_bool(), value) {
@@ -90,7 +90,8 @@ fn change(program: &FlatProgram, id: VarId, number: usize, value: Option<u64>, o
     };
 }
 
-/// The short name of a variable: a number in digits from `!` to `~`, the lowest first; `!` is 0, and `!!` follows `~`.
+/// Short identifier of a variable: a number in digits from `!` to `~`, the lowest first; `!` is 0, and `!!` follows
+/// `~`.
 fn code(mut number: usize) -> String {
     let mut code = String::new();
     loop {
@@ -102,20 +103,20 @@ fn code(mut number: usize) -> String {
     }
 }
 
-/// A name as VCD can have it. What is no simple identifier, like `level[3]`, begins with `\` and ends with a space.
+/// A name as a VCD identifier. Names that are not simple, like `level[3]`, begin with `\` and end with a space.
 fn identifier(name: &str) -> String {
     let is_simple = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     if is_simple { name.to_owned() } else { format!("\\{name}") }
 }
 
-/// The program, an instance or a structure.
+/// Scope: the program, an instance or a structure.
 struct Scope {
     name: String,
     /// Variables, each with its position among all.
     variables: Vec<(String, usize)>,
     scopes: Vec<Scope>,
-    /// The position of each scope.
+    /// Position of each inner scope by name.
     known: BTreeMap<String, usize>,
 }
 
@@ -124,7 +125,7 @@ impl Scope {
         Self { name: name.to_owned(), variables: Vec::new(), scopes: Vec::new(), known: BTreeMap::new() }
     }
 
-    /// Puts a variable where its name says: `pump.T.Q` is `Q` in `T` in `pump`.
+    /// Adds a variable in the scope given by its name: `pump.T.Q` is `Q` in `T` in `pump`.
     fn add(&mut self, name: &str, number: usize) {
         let Some((scope, rest)) = name.split_once('.') else {
             self.variables.push((name.to_owned(), number));

@@ -1,4 +1,4 @@
-//! `petril init`: an example of a project, to try things on and to begin with.
+//! `petril init`: writes an example project.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,13 +13,13 @@ macro_rules! files {
     };
 }
 
-/// The files of the example. Its program has a fault, and its README says what to do about it.
+/// Files of the example. Its program has a fault, and the README explains how to find it.
 const FILES: [(&str, &str); 5] = files! { "gate.il" "gate.net" "gate.req" "petril.toml" "README.md" };
 
 pub fn run(arguments: &Init, console: &Console) -> Outcome {
     let folder = &arguments.folder;
     let is_here = folder == Path::new(".");
-    // Nothing is written if anything would be overwritten.
+    // Nothing is written if a file would be overwritten.
     let taken: Vec<String> = FILES
         .iter()
         .map(|(name, _)| if is_here { PathBuf::from(name) } else { folder.join(name) })

@@ -1,4 +1,4 @@
-//! The last scans as a timing diagram.
+//! Timing diagram of the last scans.
 
 use petril::semantics::{Role, VarId};
 use ratatui::layout::Rect;
@@ -8,12 +8,12 @@ use ratatui::text::Line;
 use super::screen::Screen;
 use super::variables::fitting;
 
-/// A cell has so many columns where all variables are truth values, and at most so many for numbers.
+/// Cell widths in columns: for Booleans only, and the maximum for numbers.
 const NARROW: usize = 2;
 const WIDEST: usize = 9;
 
-/// A row for each variable, as many as there is room for, around the chosen one: truth values as a line that is low or high,
-/// numbers where they change.
+/// Rows for as many variables as fit, around the selected one: Booleans as a low or high line, numbers where they
+/// change.
 pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let program = screen.program();
     let scans = screen.session.scans();
@@ -36,7 +36,7 @@ pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     // Power-on is scan 0.
     let from = (scans.len() + 1).saturating_sub(cells);
     let columns = from..=scans.len();
-    // A number may take the cells of scans that have none.
+    // A number may extend over the cells of scans without one.
     let digits = scans.len().to_string().len();
     let every = [1, 5, 10].into_iter().find(|every| every * cell > digits + 1).unwrap_or(50);
     let numbered = columns.clone().filter(|scan| scan % every == 0);
@@ -61,7 +61,7 @@ pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     std::iter::once(head).chain(rows).collect()
 }
 
-/// A text in a cell, cut off if it is too long.
+/// Fits a text into a cell, truncated if necessary.
 fn fit(text: &str, cell: usize) -> String {
     let text: String = text.chars().take(cell).collect();
     format!("{text:cell$}")

@@ -1,4 +1,4 @@
-//! Where each pane stands.
+//! Layout of the panes.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -12,13 +12,13 @@ use petril::printable::is_printable;
 use super::screen::{Mode, Screen};
 use super::{diagram, overlay, source_pane, tokens, variables};
 
-/// From so many columns on, source and variables stand beside each other.
+/// Width from which source and variables are side by side.
 const WIDE: u16 = 64;
 
-/// Below so many rows, there is no timing diagram.
+/// Height below which there is no timing diagram.
 const HIGH: u16 = 18;
 
-/// Draws everything.
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, screen: &Screen<'_>) {
     let [head, body, foot] =
         Layout::vertical([Constraint::Length(1), Constraint::Fill(1), Constraint::Length(1)]).areas(frame.area());
@@ -37,7 +37,7 @@ pub fn draw(frame: &mut Frame<'_>, screen: &Screen<'_>) {
     } else {
         Layout::vertical(halves).areas(upper)
     };
-    // Where there is little room, the tokens take that of the source.
+    // In little space, the tokens replace the source.
     if screen.shows_tokens && lower.is_none() {
         pane(frame, first, "net".to_owned(), |area| tokens::lines(screen, area));
     } else {
@@ -59,7 +59,7 @@ pub fn draw(frame: &mut Frame<'_>, screen: &Screen<'_>) {
     hide_unprintable(frame);
 }
 
-/// Nothing that was drawn may hide or reorder what stands beside it.
+/// Replaces characters that could hide or reorder what is beside them.
 fn hide_unprintable(frame: &mut Frame<'_>) {
     let cells = frame.buffer_mut().content.iter_mut();
     for cell in cells.filter(|cell| !cell.symbol().chars().all(is_printable)) {
@@ -67,7 +67,7 @@ fn hide_unprintable(frame: &mut Frame<'_>) {
     }
 }
 
-/// Lines in a frame with a title.
+/// Draws lines in a frame with a title.
 fn pane(frame: &mut Frame<'_>, area: Rect, title: String, lines: impl FnOnce(Rect) -> Vec<Line<'static>>) {
     let block = Block::bordered().border_style(Style::new().dark_gray()).title(title.bold());
     let inner = block.inner(area);
@@ -75,7 +75,7 @@ fn pane(frame: &mut Frame<'_>, area: Rect, title: String, lines: impl FnOnce(Rec
     frame.render_widget(Paragraph::new(lines(inner)), inner);
 }
 
-/// Where the run is.
+/// Status line: the current position of the run.
 fn status(screen: &Screen<'_>) -> String {
     let session = &screen.session;
     let (done, planned) = (session.scans().len(), session.planned());
@@ -99,7 +99,7 @@ fn status(screen: &Screen<'_>) -> String {
     text + &format!(" · {}", screen.source.name())
 }
 
-/// A message, a question, or the most important keys.
+/// Bottom line: a message, a question, or the most important keys.
 fn footer(screen: &Screen<'_>, width: usize) -> Line<'static> {
     let ask = |question: String, text: &str| {
         let problem = screen.message.as_ref().map(|(problem, _)| format!("  {problem}").fg(Color::Red));
@@ -117,7 +117,7 @@ fn footer(screen: &Screen<'_>, width: usize) -> Line<'static> {
     }
 }
 
-/// As many of the most important keys as there is room for.
+/// As many of the most important keys as fit.
 fn hints(width: usize) -> String {
     let hints = ["s scan", "l line", "t transition", "S L T back", "/ until", "r random", "n net", "p plant"];
     let mut text = "? help  q quit".to_owned();

@@ -1,18 +1,18 @@
-//! What the keys do.
+//! Key bindings.
 
 use petril::simulate::Session;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::screen::{Mode, Screen};
 
-/// Whether the session goes on.
+/// Whether the session continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
     GoOn,
     End,
 }
 
-/// What the keys do, as the help has it.
+/// Key bindings, as shown in the help.
 pub const HELP: [(&str, &str); 16] = [
     ("s  PgDn", "a scan forward, or to the end of this one"),
     ("S  PgUp", "a scan back, or to the beginning of this one"),
@@ -33,7 +33,7 @@ pub const HELP: [(&str, &str); 16] = [
 ];
 
 impl Screen<'_> {
-    /// Does what a key says.
+    /// Handles a key.
     pub fn press(&mut self, key: KeyEvent) -> Flow {
         if key.modifiers.contains(KeyModifiers::CONTROL) {
             return if key.code == KeyCode::Char('c') { Flow::End } else { Flow::GoOn };
@@ -58,7 +58,7 @@ impl Screen<'_> {
         Flow::GoOn
     }
 
-    /// A key while nothing is asked.
+    /// Handles a key in stepping mode.
     fn step(&mut self, key: KeyCode) -> Flow {
         match key {
             KeyCode::Char('q') => return Flow::End,
@@ -113,7 +113,7 @@ impl Screen<'_> {
         }
     }
 
-    /// A key while the plant's choices are shown.
+    /// Handles a key in plant mode.
     fn choose(&mut self, key: KeyCode, chosen: usize) {
         let choices = self.session.choices();
         let act = |screen: &mut Self, position: usize| {
@@ -141,7 +141,7 @@ impl Screen<'_> {
         }
     }
 
-    /// A key while a text is asked for; the text when it is complete.
+    /// Handles a key in text input; returns the text when it is complete.
     fn typed(&mut self, key: KeyCode, mut text: String, mode: impl FnOnce(String) -> Mode) -> Option<String> {
         match key {
             KeyCode::Enter => {

@@ -1,6 +1,6 @@
-//! `petril simulate --interactive`: a run under somebody's hands, in the terminal.
+//! `petril simulate --interactive`: an interactive session in the terminal.
 //!
-//! A [`Screen`] takes keys and says what there is to see; nothing but this file knows the terminal.
+//! A [`Screen`] handles keys and holds what is shown; only this file uses the terminal.
 
 mod diagram;
 mod draw;
@@ -25,14 +25,15 @@ use super::{Failure, Outcome, reason};
 use keys::Flow;
 pub use screen::Screen;
 
-/// Shows a run until its user has seen enough.
+/// Runs the session until its user quits.
 pub fn run(mut screen: Screen<'_>, console: &Console) -> Outcome {
     if !io::stdin().is_terminal() || !io::stdout().is_terminal() {
         let message = "--interactive needs a terminal, for keys and for what it shows";
         return Err(Failure::Message(message.to_owned()));
     }
     style::force_color_output(console.output_in_colour());
-    // A signal ends the program without unwinding. If nobody can be told, it does so as usual.
+    // A signal ends the program without unwinding, so the terminal is restored here. Without a handler, it ends as
+    // usual.
     let _ = ctrlc::set_handler(|| {
         ratatui::restore();
         std::process::exit(130);
@@ -43,7 +44,7 @@ pub fn run(mut screen: Screen<'_>, console: &Console) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Draws, and waits for a key, again and again. A panic restores the terminal before it says anything.
+/// Event loop: draws, and waits for a key. A panic restores the terminal before it is reported.
 fn show(screen: &mut Screen<'_>) -> io::Result<()> {
     let mut terminal = ratatui::try_init()?;
     loop {

@@ -1,4 +1,4 @@
-//! What stands above everything for a while: the help, and what the plant can do.
+//! Overlays: help, and plant moves.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Flex, Layout, Rect};
@@ -9,13 +9,13 @@ use ratatui::widgets::{Block, Clear, Paragraph};
 use super::keys::HELP;
 use super::screen::Screen;
 
-/// What the keys do.
+/// Help on the keys.
 pub fn help(frame: &mut Frame<'_>) {
     let lines = HELP.iter().map(|(key, text)| Line::from_iter([format!("{key:10} ").bold(), (*text).into()]));
     show(frame, "keys", lines.collect());
 }
 
-/// What the plant is to do before the next scan, and what it can do after that.
+/// Plant moves planned before the next scan, and those possible after them.
 pub fn plant(frame: &mut Frame<'_>, screen: &Screen<'_>, chosen: usize) {
     let system = screen.session.system();
     let planned = screen.session.plan().moves.into_iter();
@@ -29,7 +29,7 @@ pub fn plant(frame: &mut Frame<'_>, screen: &Screen<'_>, chosen: usize) {
     show(frame, "plant, before the next scan", lines);
 }
 
-/// Lines in a box in the middle, as far as there is room.
+/// Draws lines in a centred box, as far as there is room.
 fn show(frame: &mut Frame<'_>, title: &'static str, lines: Vec<Line<'static>>) {
     let width = lines.iter().map(Line::width).max().unwrap_or(0).max(title.len()) + 2;
     let area = middle(frame.area(), width as u16, lines.len() as u16 + 2);

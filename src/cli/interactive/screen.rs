@@ -1,4 +1,4 @@
-//! What is shown of a session, and what its user is doing.
+//! State of the interactive screen: session, selection, mode.
 
 use petril::flat::FlatProgram;
 use petril::logic::View;
@@ -9,44 +9,43 @@ use petril::verdict::Note;
 
 use crate::cli::input_table;
 
-/// Keys of free inputs. Letters that are left out mean something else.
+/// Keys of free inputs. Omitted letters have other meanings.
 const LABELS: &str = "123456789abdefghimouvwxyz";
 
-/// A run to a condition takes at most so many scans, of which all values are kept, or so many firings if the condition is about
-/// those.
+/// Upper bounds on a run to a condition: scans, values stored for them, and firings for conditions on these.
 const RUN_SCANS: usize = 10_000;
 const RUN_VALUES: usize = 1 << 25;
 const RUN_FIRINGS: usize = 100_000;
 
-/// A session with everything its user sees.
+/// Interactive screen.
 pub struct Screen<'s> {
     pub session: Session<'s>,
     pub source: &'s Source,
     chance: Chance<'s>,
-    /// The variables in the order in which they are listed: inputs, outputs, memory, constants.
+    /// Variables in the order of the list: inputs, outputs, memory, constants.
     pub variables: Vec<VarId>,
     /// Free inputs with their keys.
     labels: Vec<(char, VarId)>,
-    /// Which variable is chosen, by its position in the list.
+    /// Position of the selected variable in the list.
     pub chosen: usize,
     pub mode: Mode,
     pub shows_tokens: bool,
-    /// What there is to say about the last key, and whether it is a complaint.
+    /// Message about the last key, and whether it is an error.
     pub message: Option<(String, bool)>,
-    /// The condition that was typed last.
+    /// Last condition typed.
     pub condition: String,
-    /// What the run shows, where, if it comes from a report.
+    /// Notes of a recorded run, with their positions.
     notes: Vec<Note>,
 }
 
-/// What the user is doing.
+/// Mode of the screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Going through the run.
+    /// Stepping through the run.
     Steps,
-    /// Reading what the keys do.
+    /// Reading the help.
     Help,
-    /// Choosing what the plant does; which choice is at hand.
+    /// Choosing plant moves; position of the selected one.
     Plant(usize),
     /// Typing the value of an input.
     Value(VarId, String),
@@ -55,7 +54,7 @@ pub enum Mode {
 }
 
 impl<'s> Screen<'s> {
-    /// The beginning of a session, whose random inputs have a seed.
+    /// Creates the screen of a session; `seed` is for random scans.
     pub fn new(session: Session<'s>, source: &'s Source, notes: Vec<Note>, seed: u64) -> Self {
         let system = session.system();
         let roles = [Role::Input, Role::Output, Role::Memory, Role::Constant];
@@ -79,7 +78,7 @@ impl<'s> Screen<'s> {
         &self.session.system().program
     }
 
-    /// What the run shows at the end of the scan, if it is still the one from the report.
+    /// Notes about the last scan, if the run is still the recorded one.
     pub fn note(&self) -> Option<String> {
         let ended = self.session.is_as_planned() && !self.session.is_within();
         let last = self.session.scans().len().checked_sub(1).filter(|_| ended)?;
@@ -88,27 +87,27 @@ impl<'s> Screen<'s> {
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// The key of an input, if it has one.
+    /// Key of an input, if it has one.
     pub fn label(&self, input: VarId) -> Option<char> {
         self.labels.iter().find(|&&(_, labelled)| labelled == input).map(|&(label, _)| label)
     }
 
-    /// The input of a key.
+    /// Input of a key.
     pub fn labelled(&self, key: char) -> Option<VarId> {
         self.labels.iter().find(|&&(label, _)| label == key).map(|&(_, input)| input)
     }
 
-    /// Says something.
+    /// Shows a message.
     pub fn say(&mut self, text: impl Into<String>) {
         self.message = Some((text.into(), false));
     }
 
-    /// Says why something was not done.
+    /// Shows an error.
     pub fn complain(&mut self, text: impl Into<String>) {
         self.message = Some((text.into(), true));
     }
 
-    /// Does something with the session, and says why it was not done.
+    /// Performs an action on the session and shows why it failed.
     pub fn attempt(&mut self, action: impl FnOnce(&mut Session<'s>) -> Result<(), Stopped>) {
         if let Err(stopped) = action(&mut self.session) {
             self.complain(stopped.to_string());
@@ -117,7 +116,7 @@ impl<'s> Screen<'s> {
         }
     }
 
-    /// Changes an input: the other truth value, or a number that is asked for.
+    /// Changes an input: negates a Boolean, or asks for a number.
     pub fn change(&mut self, input: VarId) {
         if self.program().variable(input).ty.is_bool() {
             self.attempt(|session| session.toggle(input));
@@ -128,7 +127,7 @@ impl<'s> Screen<'s> {
         }
     }
 
-    /// Takes a value that was typed; if it is none, asks again.
+    /// Sets an input to a typed value; asks again if it is invalid.
     pub fn take_value(&mut self, input: VarId, text: &str) {
         match input_table::value(self.program(), input, text.trim()) {
             Some(value) => self.attempt(|session| session.set(input, value)),
@@ -143,7 +142,7 @@ impl<'s> Screen<'s> {
         }
     }
 
-    /// The next scan by chance.
+    /// Executes a random scan.
     pub fn random_scan(&mut self) {
         if self.session.is_within() {
             self.complain(Stopped::UnderWay.to_string());
@@ -155,8 +154,8 @@ impl<'s> Screen<'s> {
         self.attempt(|_| stepped);
     }
 
-    /// Goes on until the condition is met, with inputs as they are, or by chance where nothing is planned. If it is not met,
-    /// nothing was done.
+    /// Runs until the condition is met, with inputs unchanged, or random where nothing is planned. If it is not met,
+    /// the session is restored.
     pub fn run(&mut self, by_chance: bool) {
         if self.condition.trim().is_empty() {
             self.complain("there is no condition yet: type one with /");

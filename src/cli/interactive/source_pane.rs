@@ -1,4 +1,4 @@
-//! The source, with the line that is executed next.
+//! Source pane, with the line to be executed next marked.
 
 use ratatui::layout::Rect;
 use ratatui::style::Stylize;
@@ -6,7 +6,7 @@ use ratatui::text::Line;
 
 use super::screen::Screen;
 
-/// The instruction of flat code that is executed next.
+/// Title: the instruction of flat code to be executed next.
 pub fn title(screen: &Screen<'_>) -> String {
     let program = screen.program();
     match screen.session.line().and_then(|line| Some((line, program.code.get(line)?))) {
@@ -15,7 +15,7 @@ pub fn title(screen: &Screen<'_>) -> String {
     }
 }
 
-/// The lines around that of the instruction, or around the first one.
+/// Source lines around that of the instruction, or around the first one.
 pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let (program, source) = (screen.program(), screen.source);
     let at = |line: usize| program.code.get(line).map(|code| source.line_of(code.span.start));
@@ -24,7 +24,7 @@ pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let middle = middle.or_else(|| at(0)).unwrap_or(1);
     let count = source.line_of(source.text().trim_end().len());
     let height = usize::from(area.height);
-    // As much before as behind, but nothing beyond the ends.
+    // Centred, but not beyond the ends.
     let first = middle.saturating_sub(height / 2).min((count + 1).saturating_sub(height)).max(1);
     let digits = count.to_string().len();
     (first..=count)

@@ -1,4 +1,4 @@
-//! What is seen at the terminal, on one of the tests' own. Snapshots are looked at before they are accepted.
+//! Tests of what the terminal shows, on a test backend. Snapshots are reviewed before they are accepted.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use petril::exchange::tina;
@@ -37,7 +37,7 @@ fn begin<'s>((system, source): &'s (System, Source)) -> Screen<'s> {
     Screen::new(Session::new(system, Tolerated::default(), Vec::new()), source, Vec::new(), 1)
 }
 
-/// Presses keys: a character each, or a word in brackets.
+/// Presses keys: one per character, or a name in angle brackets.
 fn press(screen: &mut Screen<'_>, keys: &str) -> Flow {
     let mut flow = Flow::GoOn;
     let mut rest = keys;
@@ -79,7 +79,7 @@ fn a_scan_line_by_line() {
     insta::assert_snapshot!("tokens-40x12", seen(&screen, 40, 12));
 }
 
-/// The guide has what is seen, and what the keys do.
+/// The guide shows the current screens and keys.
 #[test]
 fn the_guide_shows_what_is_seen() {
     let guide = include_str!("../../../docs/simulation.md");
@@ -173,7 +173,7 @@ fn wrong_answers_are_asked_again() {
     assert_eq!(screen.press(KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL)), Flow::End);
 }
 
-/// What a report says of its run is told where it is so, as long as the run is the same.
+/// Notes of a recorded run are shown at their scans, as long as the run is unchanged.
 #[test]
 fn notes_of_a_report_are_told() {
     let system = read("tank.il", TANK, None);
@@ -193,7 +193,7 @@ fn notes_of_a_report_are_told() {
     assert_eq!(screen.note(), None);
 }
 
-/// No terminal is too small, and no key brings the program down.
+/// No terminal is too small, and no key crashes the program.
 #[test]
 fn any_size_and_any_key() {
     let programs = [read("tank.il", TANK, None), read("two-hand-switch.il", SWITCH, Some(HANDS))];

@@ -1,4 +1,4 @@
-//! The net where control is: the transitions from there, each with the tokens it needs, takes and puts.
+//! Net pane at the control place: transitions from there, each with the tokens it needs, consumes and produces.
 
 use petril::net::{PlaceId, TransitionId};
 use petril::translate::PlaceRole;
@@ -9,13 +9,13 @@ use ratatui::text::{Line, Span};
 
 use super::screen::Screen;
 
-/// How many tokens there are.
+/// Title: number of tokens.
 pub fn title(screen: &Screen<'_>) -> String {
     let tokens = screen.session.replay().marking().marked().count();
     format!("net · {tokens} tokens on {} places", screen.session.system().net.places().len())
 }
 
-/// The place of control, what the plant's places have, and the transitions; those that are enabled first.
+/// Control place, marked places of the plant, and transitions, enabled ones first.
 pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let system = screen.session.system();
     let replay = screen.session.replay();
@@ -42,7 +42,7 @@ fn control(screen: &Screen<'_>, replay: &Replay<'_>) -> Line<'static> {
     Line::from_iter(["control at ".dim(), control.map_or_else(String::new, |place| name(screen, place)).bold()])
 }
 
-/// The plant's tokens, on one line.
+/// Marked places of the plant, on one line.
 fn marked_plant(screen: &Screen<'_>, replay: &Replay<'_>) -> Option<Line<'static>> {
     let system = screen.session.system();
     let is_plant = |place: &PlaceId| matches!(system.places[place.index()], PlaceRole::Plant(_));
@@ -50,7 +50,7 @@ fn marked_plant(screen: &Screen<'_>, replay: &Replay<'_>) -> Option<Line<'static
     (!marked.is_empty()).then(|| Line::from_iter(["plant ".dim(), Span::raw(marked.join("  "))]))
 }
 
-/// `▶ t: ●a ○b → c`: what it takes, then what it needs in brackets, then what it puts; `●` is marked.
+/// `▶ t: ●a ○b → c`: places consumed, then read (in brackets), then produced; `●` is marked.
 fn transition(screen: &Screen<'_>, replay: &Replay<'_>, id: TransitionId, is_next: bool) -> Line<'static> {
     let net = &screen.session.system().net;
     let arcs = net.arcs(id);

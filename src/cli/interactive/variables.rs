@@ -1,4 +1,4 @@
-//! The variables, those that have changed marked, inputs with what is read next.
+//! Variables pane: changed ones are marked, and inputs show the value read next.
 
 use petril::semantics::{Role, VarId};
 use ratatui::layout::Rect;
@@ -7,12 +7,12 @@ use ratatui::text::{Line, Span};
 
 use super::screen::Screen;
 
-/// The names of the columns.
+/// Title: names of the columns.
 pub fn title(screen: &Screen<'_>) -> String {
     if screen.session.is_within() { "variables" } else { "variables → next" }.to_owned()
 }
 
-/// The list, as much of it as there is room for, around the chosen one.
+/// Part of the list that fits, around the selected variable.
 pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     let mut rows = Vec::new();
     for &id in &screen.variables {
@@ -44,7 +44,7 @@ pub fn lines(screen: &Screen<'_>, area: Rect) -> Vec<Line<'static>> {
     shown.iter().map(line).collect()
 }
 
-/// A row of the list.
+/// Row of the list.
 enum Row {
     Heading(Role),
     Variable(VarId),
@@ -60,7 +60,7 @@ fn heading(role: Role) -> &'static str {
     }
 }
 
-/// `3 Level  *80 → 81`: key, name, a star if it has changed, value, and what is read next if that is another value.
+/// `3 Level  *80 → 81`: key, name, a star if changed, value, and the value read next if different.
 fn line(screen: &Screen<'_>, id: VarId, next: Option<u64>, longest: usize, width: usize) -> Line<'static> {
     let program = screen.program();
     let value = screen.session.value(id);
@@ -76,7 +76,7 @@ fn line(screen: &Screen<'_>, id: VarId, next: Option<u64>, longest: usize, width
     Line::from_iter([name, text, next.cyan()])
 }
 
-/// A name in so many columns; of a longer one, its end.
+/// Fits a name into `room` columns; of a longer one, the end is kept.
 pub fn fitting(name: &str, room: usize) -> String {
     let length = name.chars().count();
     if length <= room {

@@ -1,4 +1,4 @@
-//! Project files: `petril.toml` says which programs are checked, and against what.
+//! Project files: `petril.toml` lists the programs to check, with their plants and requirements.
 
 use std::path::{Path, PathBuf};
 
@@ -12,10 +12,10 @@ use super::programs::{Programs, matches};
 use crate::cli::console::Console;
 use crate::cli::{Failure, input};
 
-/// The name by which a project file is found.
+/// Name of project files.
 pub const NAME: &str = "petril.toml";
 
-/// The project file of the folder in which the command runs, or of the nearest one above it.
+/// Finds the project file of the current folder, or of the nearest one above it.
 pub fn find() -> Option<PathBuf> {
     let mut path = PathBuf::from(NAME);
     let here = std::env::current_dir().ok()?;
@@ -26,17 +26,17 @@ pub fn find() -> Option<PathBuf> {
     })
 }
 
-/// A program that is checked, and how.
+/// Program to check, with its options.
 pub struct Entry {
-    /// What it is called in the summary. Unique.
+    /// Unique name in the summary.
     pub name: String,
     /// Options of `petril check`.
     pub options: Vec<String>,
-    /// The program.
+    /// Path of the program.
     pub program: PathBuf,
 }
 
-/// Reads a project file. All that is wrong with it is printed at once.
+/// Reads a project file. All its errors are printed at once.
 pub fn read(path: &Path, console: &Console) -> Result<Vec<Entry>, Failure> {
     let source = input::source(path, input::MAX_TEXT, console)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -59,7 +59,7 @@ impl Reader<'_> {
     fn document(&mut self, source: &Source) {
         let (document, errors) = DeTable::parse_recoverable(source.text());
         if !errors.is_empty() {
-            // What was recovered may say other things than what is meant.
+            // Recovered content may differ from what is meant.
             self.diagnostics.extend(errors.iter().map(|error| {
                 let span = error.span().unwrap_or_default();
                 Diagnostic::new(Code::ProjectSyntax, Span::new(span.start, span.end), error.message())
@@ -100,7 +100,7 @@ impl Reader<'_> {
         }
     }
 
-    /// One `[[check]]`.
+    /// Reads one `[[check]]`.
     fn check(&mut self, place: Span, table: &DeTable<'_>, defaults: &[Setting]) {
         let (mut name, mut programs, mut settings) = (None, Programs::default(), Vec::new());
         let errors = self.diagnostics.len();

@@ -1,4 +1,4 @@
-//! The forms of the reports of a project: one file for all programs where the form has room for several, or one for each.
+//! Report files of a project: one file for all programs where the format allows it, else one for each.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -11,7 +11,7 @@ use super::run::Judged;
 use crate::cli::forms::{self, Forms, stamp};
 use crate::cli::{Failure, output, reason, shown};
 
-/// Writes what was asked for about all programs that could be checked.
+/// Writes the requested files for all programs that could be checked.
 pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
     forms::refuse(forms)?;
     let done = || results.iter().filter_map(|result| Some((result, result.done.as_ref().ok()?)));
@@ -42,7 +42,7 @@ pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The runs of both documents in one.
+/// Merges the runs of two SARIF documents.
 fn joined(mut all: Value, mut more: Value) -> Value {
     if let (Some(runs), Some(others)) = (all["runs"].as_array_mut(), more["runs"].as_array_mut()) {
         runs.append(others);
@@ -50,8 +50,8 @@ fn joined(mut all: Value, mut more: Value) -> Value {
     all
 }
 
-/// The file of a program in a folder, which is made if there is none. A name like `lines/press` is a path in it, and never one out
-/// of it.
+/// Path for a program's file in a folder, which is created if necessary. A name like `lines/press` is a path inside the
+/// folder, never outside.
 fn file(folder: &Path, name: &str, ending: &str) -> Result<PathBuf, Failure> {
     let inside = Path::new(name).components().filter(|part| matches!(part, Component::Normal(_)));
     let mut path = folder.join(inside.collect::<PathBuf>()).into_os_string();

@@ -1,4 +1,4 @@
-//! What the command line of a project run says of every program.
+//! Options on the command line of a project run, which apply to every program.
 
 use std::ffi::OsString;
 
@@ -10,7 +10,7 @@ use super::file::Entry;
 use crate::cli::Failure;
 use crate::cli::args::Check;
 
-/// The options of `petril check` that were typed, as they were typed.
+/// Options of `petril check` that were typed, as typed.
 pub fn given(matches: &ArgMatches) -> Vec<OsString> {
     let Some(("check", matches)) = matches.subcommand() else { return Vec::new() };
     let command = Check::augment_args(Command::new("check"));
@@ -33,7 +33,7 @@ pub fn given(matches: &ArgMatches) -> Vec<OsString> {
     given
 }
 
-/// The arguments with which a program of a project is checked. What the command line says comes last, and so is what counts.
+/// Arguments for checking a program of a project. Options on the command line come last and take precedence.
 pub fn arguments(entry: &Entry, given: &[OsString]) -> Result<Check, Failure> {
     let command = Check::augment_args(Command::new("check")).args_override_self(true);
     let options = entry.options.iter().map(OsString::from).chain(given.iter().cloned());

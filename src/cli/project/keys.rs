@@ -1,4 +1,4 @@
-//! The keys of a project file: each is an option of `petril check`.
+//! Keys of a project file: each corresponds to an option of `petril check`.
 
 use std::error::Error;
 
@@ -11,25 +11,25 @@ use toml::de::DeValue;
 
 use crate::cli::args::Check;
 
-/// A key that says how a program is checked.
+/// Key for the options of a check.
 pub struct Key {
-    /// As it is written.
+    /// Spelling of the key.
     pub name: &'static str,
-    /// The option it stands for.
+    /// Corresponding option.
     option: &'static str,
     kind: Kind,
 }
 
-/// What a key takes.
+/// Type of a key's value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// One text or number.
+    /// Text or number.
     Word,
-    /// True or false.
+    /// Boolean.
     Switch,
-    /// A text, or a list of them.
+    /// Text, or list of texts.
     Texts,
-    /// The same, as paths from the folder of the project file.
+    /// Text or list of texts, as paths relative to the folder of the project file.
     Paths,
 }
 
@@ -37,7 +37,7 @@ const fn key(name: &'static str, option: &'static str, kind: Kind) -> Key {
     Key { name, option, kind }
 }
 
-/// The keys, in the order in which the guide has them.
+/// Keys, in the order of the guide.
 pub const KEYS: [Key; 15] = [
     key("plants", "plant", Kind::Paths),
     key("requirements", "require", Kind::Paths),
@@ -56,7 +56,7 @@ pub const KEYS: [Key; 15] = [
     key("timeout", "timeout", Kind::Word),
 ];
 
-/// The value of a key: what is typed behind its option.
+/// Value of a key, as arguments of its option.
 #[derive(Clone)]
 pub struct Setting {
     option: &'static str,
@@ -88,12 +88,12 @@ impl Setting {
         Ok(Self { option, kind, values })
     }
 
-    /// Whether this takes the place of another setting. Lists go on where others end.
+    /// Whether this setting overrides another one. Lists are appended instead.
     pub fn replaces(&self, other: &Self) -> bool {
         self.option == other.option && matches!(self.kind, Kind::Word | Kind::Switch)
     }
 
-    /// The arguments, with the names of files as `path` gives them.
+    /// Command-line arguments, with file names mapped by `path`.
     pub fn arguments<'s>(&'s self, path: &'s dyn Fn(&str) -> String) -> impl Iterator<Item = String> + 's {
         self.values.iter().map(move |value| match self.kind {
             Kind::Switch => format!("--{}", self.option),
@@ -103,7 +103,7 @@ impl Setting {
     }
 }
 
-/// One text, or a list of them.
+/// Reads a text, or a list of texts.
 pub fn texts(name: &str, value: &Spanned<DeValue<'_>>) -> Result<Vec<String>, Vec<Diagnostic>> {
     let wanted = |value: &Spanned<DeValue<'_>>| {
         let message = format!("`{name}` takes a text, or a list of texts");
@@ -120,12 +120,12 @@ pub fn texts(name: &str, value: &Spanned<DeValue<'_>>) -> Result<Vec<String>, Ve
     }
 }
 
-/// Where a value stands.
+/// Span of a value.
 pub fn span<T>(value: &Spanned<T>) -> Span {
     Span::new(value.span().start, value.span().end)
 }
 
-/// What the command line says against a value, if it does not take it.
+/// Error of the command line for a value, if it rejects it.
 fn refused(option: &str, value: &str) -> Option<String> {
     let command = Check::augment_args(Command::new("check"));
     let error = command

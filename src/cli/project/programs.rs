@@ -1,4 +1,4 @@
-//! Which programs an entry of a project is about: one, or all that a pattern matches.
+//! Programs of a project entry: one, or all matched by patterns.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,16 +9,16 @@ use petril::source::Span;
 use crate::cli::console::Console;
 use crate::cli::seen::matching;
 
-/// What an entry says of its programs, and where.
+/// Programs of an entry, with their positions.
 #[derive(Default)]
 pub struct Programs {
-    /// `program`
+    /// Value of `program`.
     pub one: Option<(String, Span)>,
-    /// `programs`
+    /// Value of `programs`.
     pub patterns: Option<(Vec<String>, Span)>,
 }
 
-/// The programs, from the folder of the project file, each with the name it has in a summary.
+/// The programs, relative to the folder of the project file, with their names in the summary.
 pub fn matches(
     folder: &Path,
     place: Span,
@@ -51,7 +51,7 @@ pub fn matches(
                     }
                 }
             }
-            // Several patterns may match a file; it is one program.
+            // Several patterns may match the same file.
             let mut seen = BTreeSet::new();
             found.retain(|program| seen.insert(program.clone()));
             Ok(found.into_iter().map(|program| (without_ending(&program), program)).collect())
@@ -71,7 +71,7 @@ fn without_ending(path: &str) -> String {
     Path::new(path).with_extension("").display().to_string()
 }
 
-/// The files a pattern matches, from the folder, in the order of their names.
+/// Files matched by a pattern, relative to the folder, sorted by name.
 fn files(folder: &Path, pattern: &str, console: &Console) -> Result<Vec<String>, String> {
     let whole = Path::new(&glob::Pattern::escape(&folder.display().to_string())).join(pattern).display().to_string();
     glob::Pattern::new(&whole).map_err(|error| error.msg.to_owned())?;

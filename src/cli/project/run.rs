@@ -1,4 +1,4 @@
-//! A run of a project: all programs beside each other, told in their order.
+//! Project run: all programs are checked concurrently and reported in project order.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -26,13 +26,13 @@ use crate::cli::progress::{Watcher, use_threads};
 use crate::cli::report::Text;
 use crate::cli::{Failure, Outcome, guard, sign_of_life};
 
-/// A program of the project that was checked, or could not be.
+/// A project program, checked or failed.
 pub struct Judged {
-    /// What it is called.
+    /// Program name.
     pub name: String,
     pub arguments: Check,
     pub done: Result<Done, Failure>,
-    /// What was said of its files, for those who want JSON.
+    /// Diagnostics of its files, for JSON output.
     pub diagnostics: Vec<Value>,
 }
 
@@ -60,7 +60,7 @@ pub fn run(command: &Check, given: &[OsString], console: &Console) -> Outcome {
     Ok(worst(&results))
 }
 
-/// The programs that are asked for: all, or those whose names match.
+/// Programs selected by `--only`; all without patterns.
 fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
     if only.is_empty() {
         return Ok(entries);
@@ -87,7 +87,7 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
     Ok(entries.into_iter().filter(|entry| patterns.iter().any(|pattern| pattern.matches(&entry.name))).collect())
 }
 
-/// Checks all programs, several at once. What they say is printed in their order.
+/// Checks all programs concurrently. Their diagnostics are printed in project order.
 fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) -> Vec<Judged> {
     let bar = ProgressBar::with_draw_target(Some(checks.len() as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} programs, {elapsed}: {wide_msg}") {
@@ -97,8 +97,8 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     let tally = Mutex::new(Tally { all: checks.len(), ..Tally::default() });
     let (next, colour, read) = (AtomicUsize::new(0), console.colour(), console.provenance().inputs);
     let (found, results) = mpsc::channel();
-    // These threads wait for the ones that compute, of which there is one for each processor. A program that is checked never takes
-    // up the work on another one in between.
+    // Worker threads only wait for the rayon pool, which has one thread per processor. A pool thread busy with one
+    // program thus never steals work of another in between.
     let workers = rayon::current_num_threads().min(checks.len());
     thread::scope(|scope| {
         for _ in 0..workers {
@@ -116,7 +116,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
                     tally.count(verdict.unwrap_or(Verdict::Holds));
                     sign_of_life::say(tally.to_string());
                     drop(tally);
-                    // Who waits for this is still there.
+                    // The receiver outlives the workers.
                     let _ = found.send((position, done, own.told()));
                 }
             });
@@ -138,7 +138,7 @@ fn all(checks: Vec<(Check, Entry)>, cache: Option<&Cache>, console: &Console) ->
     checks.into_iter().zip(results).map(told).collect()
 }
 
-/// Number of programs that are done.
+/// Counts of finished and violated programs.
 #[derive(Default)]
 struct Tally {
     all: usize,
@@ -159,13 +159,13 @@ impl fmt::Display for Tally {
     }
 }
 
-/// The next one that nobody has taken.
+/// Takes the next unclaimed item.
 fn take<'a, T>(next: &AtomicUsize, of: &'a [T]) -> Option<(usize, &'a T)> {
     let position = next.fetch_add(1, Ordering::Relaxed);
     Some((position, of.get(position)?))
 }
 
-/// The summary, and what is not as it should be.
+/// Summary table, followed by the answers that do not hold.
 fn text(path: &Path, results: &[Judged], console: &Console) -> String {
     let lines: Vec<Line<'_>> = results.iter().map(|result| Line::of(&result.name, result.done.as_ref().ok())).collect();
     let mut out = summary(path, &lines, console);
@@ -199,7 +199,7 @@ fn document(path: &Path, results: &[Judged]) -> Value {
     })
 }
 
-/// The exit code of the worst: input that cannot be used, then what is violated, then what is unknown.
+/// Exit code of the worst result: unusable input, then violated, then unknown.
 fn worst(results: &[Judged]) -> ExitCode {
     if results.iter().any(|result| result.done.is_err()) {
         return ExitCode::from(2);

@@ -1,4 +1,4 @@
-//! The table of a project: a line for each program.
+//! Summary table of a project, one row per program.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use crate::cli::console::Console;
 use crate::cli::report::{counted, indent};
 use crate::cli::shown;
 
-/// What the table says of a program.
+/// Row of the summary table.
 pub struct Line<'a> {
     name: &'a str,
-    /// Nothing if the program could not be checked.
+    /// None if the check of the program failed.
     done: Option<&'a Done>,
 }
 
@@ -34,7 +34,7 @@ impl<'a> Line<'a> {
         self.answers().iter().filter(|answer| answer.recalled).count()
     }
 
-    /// The worst of what is checked without asking.
+    /// Worst verdict of the built-in checks.
     fn checks(&self, done: &Done) -> &'static str {
         let verdicts = done.report.checks.iter().map(|check| check.outcome.verdict());
         match verdicts.max().unwrap_or(Verdict::Holds) {
@@ -48,7 +48,7 @@ fn count(answers: &[Answer], verdict: Verdict) -> usize {
     answers.iter().filter(|answer| answer.outcome.verdict() == verdict).count()
 }
 
-/// The table, and one sentence about all programs.
+/// Summary table and the totals over all programs.
 pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
     let mut out = format!("project {}, {}\n\n", shown(path), counted(lines.len(), "program"));
     let mut table = Table::new(vec![
@@ -83,7 +83,7 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
     out
 }
 
-/// `3 programs: 2 hold, 1 violated`
+/// Programs by verdict, `3 programs: 2 hold, 1 violated`.
 fn programs(lines: &[Line<'_>]) -> String {
     let with =
         |verdict| lines.iter().filter_map(|line| line.done).filter(|done| done.report.verdict() == verdict).count();

@@ -1,4 +1,4 @@
-//! One requirement: its verdict, what it says, and the run that shows it.
+//! Report of one requirement: verdict, formula, and counterexample or witness.
 
 use petril::logic::Tag;
 use petril::semantics::VarId;
@@ -15,7 +15,7 @@ use crate::cli::console::Colour;
 use crate::cli::show;
 
 impl Text<'_> {
-    /// Everything that is told of a requirement.
+    /// Full report of an answer.
     pub(super) fn answer(&self, answer: &Answer, report: &Report) -> String {
         let mut out = self.head(answer);
         if answer.recalled {
@@ -55,7 +55,7 @@ impl Text<'_> {
         out
     }
 
-    /// The verdict, what the requirement says, and its formula.
+    /// Verdict, description and formula of the requirement.
     fn head(&self, answer: &Answer) -> String {
         let (word, colour) = match answer.outcome.verdict() {
             Verdict::Holds => ("HOLDS   ", Colour::Good),
@@ -70,7 +70,7 @@ impl Text<'_> {
             let tags: Vec<String> = answer.tags.iter().map(tag).collect();
             title += &format!(" [{}]", tags.join(", "));
         }
-        // Colours take no columns.
+        // Colour codes take no columns.
         let head = paragraph(word, word.len() + 1, &format!(" {title}"), self.console.output_width());
         let mut out = head.replacen(word, &self.console.paint(word, colour), 1);
         if let Some(words) = &answer.words {
@@ -79,22 +79,22 @@ impl Text<'_> {
         out + &self.told(&answer.formula)
     }
 
-    /// An indented paragraph.
+    /// Indented paragraph.
     fn told(&self, text: &str) -> String {
         paragraph(INDENT, INDENT.len(), text, self.console.output_width())
     }
 
-    /// An indented paragraph that begins with a word in the colour of doubt, which takes no columns.
+    /// Indented paragraph starting with a word in the warning colour; the colour code takes no columns.
     fn doubtful(&self, word: &str, text: &str) -> String {
         self.told(&format!("{word}: {text}")).replacen(word, &self.console.paint(word, Colour::Doubtful), 1)
     }
 
-    /// The columns that are left beside the indent.
+    /// Width left beside the indent.
     fn width(&self) -> usize {
         self.console.output_width().saturating_sub(INDENT.len())
     }
 
-    /// A run as a table, what it shows, and why it breaks the requirement.
+    /// Trace as a table, its notes, and the explanation of the violation.
     fn witness(&self, answer: &Answer, witness: &Witness, why: Option<&Why>, report: &Report) -> String {
         let changes =
             why.and_then(|why| why.repair.as_ref()).map(|repair| repair.changes.as_slice()).unwrap_or_default();
@@ -110,7 +110,7 @@ impl Text<'_> {
             Trace::Firings(trace) => out += &indent(&firing_table(self.system, trace).within(self.width())),
         }
         out += "\n";
-        // What is so after one scan is told again by what was wanted.
+        // Notes on a single scan repeat the `wanted` sentences.
         let is_told = why.is_some_and(|why| !why.wanted.is_empty()) && !self.arguments.details;
         for note in witness.notes.iter().filter(|note| !is_told || note.first != note.last) {
             out += &self.told(&note.sentence(report.exploration.view));
@@ -135,7 +135,7 @@ impl Text<'_> {
         out
     }
 
-    /// The variables of a run that are shown, and its scans, some of them folded.
+    /// Shown variables and scans of a trace; uninteresting scans are folded.
     fn shown(&self, answer: &Answer, witness: &Witness) -> (Columns, Vec<Piece>) {
         let focus = Focus::of(answer, witness);
         let columns = match self.arguments.show.as_slice() {
@@ -149,12 +149,12 @@ impl Text<'_> {
         (columns, pieces)
     }
 
-    /// Whether only ASCII is to be printed beside names.
+    /// Whether to draw with ASCII characters only; names are printed unchanged.
     fn is_plain(&self) -> bool {
         self.arguments.ascii || !self.console.has_unicode()
     }
 
-    /// How a run ends: with an error, or never.
+    /// End of a trace: a runtime error or a loop.
     fn end(&self, trace: &Trace) -> String {
         match trace {
             Trace::Scans(ScanTrace { scans, loop_start: None }) => {
@@ -176,7 +176,7 @@ impl Text<'_> {
     }
 }
 
-/// A tag as it was written.
+/// Tag in its source form.
 fn tag(tag: &Tag) -> String {
     match &tag.value {
         Some(value) => format!("{}: {value}", tag.name),

@@ -1,4 +1,4 @@
-//! What was modelled, what is worth knowing of the program, and what nobody asked about.
+//! Coverage section of the report: model size, remarks on the program, and variables without requirements.
 
 use petril::semantics::VarId;
 use petril::verdict::{Coverage, Remark, Report};
@@ -7,7 +7,7 @@ use super::Text;
 use super::layout::joined;
 
 impl Text<'_> {
-    /// What was modelled, and the notes, those of one kind together.
+    /// Model size and notes, grouped by kind.
     pub(super) fn coverage(&self, report: &Report) -> String {
         let mut out = match &report.coverage {
             Some(coverage) => self.line("modelled", &modelled(coverage)),
@@ -19,7 +19,7 @@ impl Text<'_> {
         out
     }
 
-    /// Outputs that keep one value.
+    /// Outputs that never change.
     fn constant(&self, report: &Report) -> Vec<String> {
         let program = &self.system.program;
         let text = |remark: &Remark| match *remark {
@@ -32,7 +32,7 @@ impl Text<'_> {
         report.remarks.iter().filter_map(text).collect()
     }
 
-    /// Source lines that no scan executes, each once.
+    /// Source lines that are never executed, each once.
     fn dead(&self, report: &Report) -> Vec<String> {
         let mut last = 0;
         let text = |remark: &Remark| match *remark {
@@ -47,7 +47,8 @@ impl Text<'_> {
         report.remarks.iter().filter_map(text).collect()
     }
 
-    /// What no requirement speaks of; where a file says what the program must do, or everything is to be told.
+    /// Variables that are never read or written (with `--details`), and those without a requirement (with `--details`
+    /// or `--require`).
     fn unasked(&self, report: &Report) -> Vec<String> {
         let Some(coverage) = &report.coverage else { return Vec::new() };
         let mut notes = Vec::new();

@@ -1,10 +1,10 @@
-//! Timing diagrams of runs: a line for each variable, a cell for each scan.
+//! Timing diagrams of traces: a row per variable, a cell per scan.
 
 use petril::semantics::VarId;
 use petril::translate::System;
 use petril::witness::{Columns, Piece, Scan, ScanTrace};
 
-/// The characters of a diagram.
+/// Characters of a diagram.
 pub struct Pen {
     low: char,
     high: char,
@@ -14,22 +14,22 @@ pub struct Pen {
     gap: char,
 }
 
-/// For every terminal.
+/// Characters for any terminal.
 pub const ASCII: Pen = Pen { low: '_', high: '"', rise: '/', fall: '\\', change: '|', gap: ':' };
-/// For most of them.
+/// Characters for Unicode terminals.
 pub const UNICODE: Pen = Pen { low: '▁', high: '▔', rise: '╱', fall: '╲', change: '│', gap: '⋮' };
 
-/// A number is given so many characters at most.
+/// Maximum width of a number.
 const WIDEST: usize = 10;
 
-/// A cell of each line: a scan that has ended, with the memory at its end and before it, or scans that are folded.
+/// Cell of a row: a completed scan with the memory at its end and at the end of the scan before, or a fold.
 enum Cell<'a> {
     Scan { number: usize, before: Option<&'a [u64]>, now: &'a [u64] },
     Gap,
 }
 
-/// The diagram of a run: the inputs as the scans read them, memory and outputs as they left them. It is split into pieces no wider
-/// than `width`.
+/// Timing diagram of a trace: inputs as read by the scans, memory and outputs at their ends. Rows are split into blocks
+/// of at most `width` columns.
 pub fn diagram(
     system: &System,
     trace: &ScanTrace,
@@ -88,12 +88,12 @@ pub fn diagram(
     drawn.join("\n")
 }
 
-/// The memory at the end of a scan.
+/// Memory at the end of a scan.
 fn end_of(scan: &Scan) -> Option<&[u64]> {
     scan.end.as_ref().map(|end| end.memory.as_slice())
 }
 
-/// The numbers of some scans.
+/// Header row with the scan numbers.
 fn heads(cells: &[Cell<'_>], width: usize, pen: &Pen) -> String {
     let heads = cells.iter().map(|cell| match cell {
         Cell::Scan { number, .. } => format!(" {number:<rest$}", rest = width - 1),
@@ -102,7 +102,7 @@ fn heads(cells: &[Cell<'_>], width: usize, pen: &Pen) -> String {
     heads.collect::<String>().trim_end().to_owned()
 }
 
-/// A truth value during one scan, after an edge.
+/// Cell of a Boolean: an edge if the value changed, then the level.
 fn level(earlier: u64, now: u64, cell: usize, pen: &Pen) -> String {
     let level = if now == 1 { pen.high } else { pen.low };
     let edge = match (earlier, now) {
@@ -113,7 +113,7 @@ fn level(earlier: u64, now: u64, cell: usize, pen: &Pen) -> String {
     std::iter::once(edge).chain(std::iter::repeat_n(level, cell - 1)).collect()
 }
 
-/// A number during one scan, if it is a new one.
+/// Cell of a number, printed if it changed.
 fn number(text: &str, is_new: bool, cell: usize, pen: &Pen) -> String {
     let mark = if is_new { pen.change } else { ' ' };
     let text: String =

@@ -1,17 +1,17 @@
-//! Paragraphs and indents of a report.
+//! Paragraphs and indentation of reports.
 
 use petril::printable;
 
-/// What stands before everything that is told of an answer.
+/// Indentation of the details of an answer.
 pub const INDENT: &str = "    ";
 
-/// Indents every line that is not empty.
+/// Indents all non-empty lines.
 pub fn indent(text: &str) -> String {
     text.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("{INDENT}{line}\n") }).collect()
 }
 
-/// A paragraph in lines of at most so many characters, as far as its words allow; the first one begins with `first`, the others
-/// with as many blanks as `hang` has characters. What the text is made of cannot begin a line or hide anything.
+/// Paragraph wrapped to `width` where its words allow. The first line begins with `first`, all others are indented by
+/// `hang`. Control characters of the text are made visible, so that it cannot start a line or hide anything.
 pub fn paragraph(first: &str, hang: usize, text: &str, width: usize) -> String {
     let mut lines = vec![first.to_owned()];
     let mut used = first.chars().count();
@@ -32,17 +32,17 @@ pub fn paragraph(first: &str, hang: usize, text: &str, width: usize) -> String {
     lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
-/// The words of a text; several blanks within it stay.
+/// Words of a text; runs of blanks within it are kept.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(' ')
 }
 
-/// A number of things: `1 scan`, `2 scans`.
+/// Count with its noun: `1 scan`, `2 scans`.
 pub fn counted(n: usize, thing: &str) -> String {
     if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 
-/// "a", "a or b", "a, b or c".
+/// Joined list: "a", "a or b", "a, b or c".
 pub fn joined(parts: &[String], word: &str) -> String {
     match parts {
         [] => String::new(),

@@ -1,4 +1,4 @@
-//! The report of a check as text for people.
+//! Text report of a check.
 
 mod answer;
 mod coverage;
@@ -23,7 +23,7 @@ use super::console::Console;
 use layout::paragraph;
 use summary::{checks, summary, table};
 
-/// Everything the text depends on besides the report.
+/// Context of the text report.
 pub struct Text<'a> {
     pub system: &'a System,
     pub source: &'a Source,
@@ -32,7 +32,7 @@ pub struct Text<'a> {
 }
 
 impl Text<'_> {
-    /// The beginning of a report: what was explored, and under which assumptions.
+    /// Opening of a report: model size, exploration and assumptions.
     pub fn opening(&self, report: &Report) -> String {
         let program = &self.system.program;
         let title =
@@ -43,14 +43,14 @@ impl Text<'_> {
         out + &self.exploration(report)
     }
 
-    /// An answer within a report, which need not have it yet.
+    /// Next answer of a report in progress; `report` need not contain it yet.
     pub fn next(&self, answer: &Answer, report: &Report) -> String {
         format!("\n{}", self.answer(answer, report))
     }
 
-    /// The end of a report, of which the first `told` answers have been told.
+    /// Rest of a report of which the first `told` answers are printed.
     pub fn closing(&self, report: &Report, told: usize) -> String {
-        // A check that holds is one word; the others are told like requirements.
+        // Checks that hold are listed in one line; the others are reported like requirements.
         let failing = report.checks.iter().filter(|check| check.outcome.verdict() != Verdict::Holds);
         let rest = report.answers.iter().skip(told).chain(failing);
         let mut out: String = rest.map(|answer| self.next(answer, report)).collect();
@@ -63,14 +63,14 @@ impl Text<'_> {
         out
     }
 
-    /// What is not as it should be.
+    /// Answers that do not hold.
     pub fn failing(&self, report: &Report) -> String {
         let answers = report.answers.iter().chain(&report.checks);
         let failing = answers.filter(|answer| answer.outcome.verdict() != Verdict::Holds);
         failing.map(|answer| format!("\n{}", self.answer(answer, report))).collect()
     }
 
-    /// A paragraph that begins with a word and a colon.
+    /// Paragraph starting with a heading and a colon.
     fn line(&self, head: &str, text: &str) -> String {
         let first = format!("{head}: ");
         paragraph(&first, first.chars().count(), text, self.console.output_width())
@@ -120,7 +120,7 @@ impl Text<'_> {
         self.line(view, &format!("{figures}; {end}")) + &assumptions.collect::<String>()
     }
 
-    /// What else could be printed.
+    /// Hints at further options.
     fn hints(&self, report: &Report) -> String {
         let shown = report.answers.iter().chain(&report.checks);
         let (mut violated, mut examples) = (false, false);

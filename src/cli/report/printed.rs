@@ -1,4 +1,4 @@
-//! A report that is printed while the check goes on: what is known and final, in the order of the whole.
+//! Incremental report: answers are printed in report order as soon as they are final.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,32 +14,32 @@ use crate::cli::check::{self, Done};
 use crate::cli::console::Console;
 use crate::cli::progress::Watcher;
 
-/// A report of which a part may have been printed.
+/// Partially printed report.
 pub struct Printed<'a> {
     arguments: &'a Check,
     console: &'a Console,
-    /// Figures that make room on the terminal.
+    /// Progress bar, suspended while printing.
     figures: ProgressBar,
     state: Mutex<State>,
 }
 
 #[derive(Default)]
 struct State {
-    /// The report without answers, once it was printed what was explored.
+    /// Report without answers, set once the exploration is printed.
     opened: Option<Report>,
-    /// Number of answers that were printed.
+    /// Count of printed answers.
     answers: usize,
-    /// Why something could not be printed.
+    /// First output error.
     failure: Option<Failure>,
 }
 
 impl<'a> Printed<'a> {
-    /// Nothing is printed yet.
+    /// A report of which nothing is printed yet.
     pub fn new(arguments: &'a Check, console: &'a Console, watcher: &Watcher) -> Self {
         Self { arguments, console, figures: watcher.figures(), state: Mutex::default() }
     }
 
-    /// Prints something that is known.
+    /// Prints an event of the check.
     pub fn hear(&self, system: &System, source: &Source, news: News<'_>) {
         let text = Text { system, source, arguments: self.arguments, console: self.console };
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
@@ -63,7 +63,7 @@ impl<'a> Printed<'a> {
         }
     }
 
-    /// Prints what is left of a report that is complete.
+    /// Prints the rest of a complete report.
     pub fn rest(self, done: &Done) -> Result<(), Failure> {
         let Done { system, source, report, .. } = done;
         let text = Text { system, source, arguments: self.arguments, console: self.console };

@@ -1,4 +1,4 @@
-//! The end of a report: how many requirements hold, and what was checked without asking.
+//! End of a report: requirements by verdict, and the built-in checks.
 
 use petril::verdict::{Answer, Report, Trace, Verdict, Witness};
 use petril::witness::{Column, Table};
@@ -6,10 +6,10 @@ use petril::witness::{Column, Table};
 use super::layout::{counted, indent};
 use crate::cli::console::Console;
 
-/// A report on more requirements than this ends with a table of them.
+/// Count of requirements above which a report ends with a table.
 const MANY: usize = 12;
 
-/// A table of many requirements, if something does not hold.
+/// Table of the requirements if they are many and some do not hold.
 pub fn table(report: &Report, console: &Console) -> String {
     let fine = report.answers.iter().all(|answer| answer.outcome.verdict() == Verdict::Holds);
     if report.answers.len() <= MANY || fine {
@@ -23,7 +23,7 @@ pub fn table(report: &Report, console: &Console) -> String {
     format!("{}\n", indent(&table.within(console.output_width().saturating_sub(4))))
 }
 
-/// How long the run is that shows a verdict.
+/// Length of the counterexample.
 fn shown_by(answer: &Answer) -> String {
     match answer.outcome.witness() {
         Some(witness) if answer.outcome.verdict() == Verdict::Violated => length(witness),
@@ -31,7 +31,7 @@ fn shown_by(answer: &Answer) -> String {
     }
 }
 
-/// How long a run is: "3 scans".
+/// Length of a trace, "3 scans".
 pub fn length(witness: &Witness) -> String {
     match &witness.trace {
         Trace::Scans(trace) => counted(trace.scans.len(), "scan"),
@@ -39,7 +39,7 @@ pub fn length(witness: &Witness) -> String {
     }
 }
 
-/// How many requirements hold.
+/// Requirements by verdict.
 pub fn summary(report: &Report) -> String {
     let count = |verdict| report.answers.iter().filter(|answer| answer.outcome.verdict() == verdict).count();
     let (holds, violated, unknown) = (count(Verdict::Holds), count(Verdict::Violated), count(Verdict::Unknown));
@@ -54,7 +54,7 @@ pub fn summary(report: &Report) -> String {
     }
 }
 
-/// The checks made without asking, in one line.
+/// Built-in checks by verdict, in one line.
 pub fn checks(report: &Report) -> String {
     let named = |verdict| {
         let checks = report.checks.iter().filter(|check| check.outcome.verdict() == verdict);

@@ -1,4 +1,4 @@
-//! Why a run breaks a requirement, in sentences.
+//! Explanation of a violation in sentences.
 
 use petril::verdict::{Change, Repair, Why};
 
@@ -6,7 +6,7 @@ use super::Text;
 use super::layout::{INDENT, joined, paragraph};
 
 impl Text<'_> {
-    /// What was wanted, who wrote it, which inputs matter.
+    /// Expected values, writers of the actual values, and decisive inputs.
     pub(super) fn why(&self, why: &Why) -> String {
         let mut out = String::new();
         for sentence in &why.wanted {
@@ -40,7 +40,7 @@ impl Text<'_> {
         paragraph(&first, first.len(), text, self.console.output_width())
     }
 
-    /// The inputs that matter, and others that would do.
+    /// Decisive inputs and their alternatives.
     fn repair(&self, repair: &Repair) -> String {
         let mut text = format!("with {} (marked !) this run would not break it", self.changes(&repair.changes));
         if !repair.others.is_empty() {
@@ -53,7 +53,7 @@ impl Text<'_> {
         text
     }
 
-    /// "S1 = 0 and O1 = 1 in scan 2"
+    /// Input changes by scan, "S1 = 0 and O1 = 1 in scan 2".
     fn changes(&self, changes: &[Change]) -> String {
         let program = &self.system.program;
         let mut scans: Vec<String> = Vec::new();

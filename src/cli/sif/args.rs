@@ -1,4 +1,4 @@
-//! The arguments of `petril sif`.
+//! Arguments of `petril sif`.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -29,7 +29,7 @@ pub enum SifVerb {
 }
 
 impl SifVerb {
-    /// Whether the answer is to be one JSON document.
+    /// Whether to print one JSON document.
     pub fn wants_json(&self) -> bool {
         match self {
             Self::Check(arguments) => arguments.json,
@@ -40,10 +40,10 @@ impl SifVerb {
         }
     }
 
-    /// The limits on the work.
+    /// Resource limits.
     pub fn bounds(&self) -> Bounds {
         match self {
-            // What a solver does not decide in a minute is reported to be open.
+            // Questions a solver does not decide within a minute are reported as undecided.
             Self::Check(SifCheck { bounds, .. }) => {
                 Bounds { timeout: bounds.timeout.or(Some(Duration::from_secs(60))), ..*bounds }
             }
@@ -56,7 +56,7 @@ impl SifVerb {
         }
     }
 
-    /// Whether there is an answer that can be incomplete.
+    /// Whether the verb has a verdict, which can be incomplete.
     pub fn has_verdict(&self) -> bool {
         matches!(self, Self::Check(_) | Self::Prove(_) | Self::Run(_) | Self::Tests(_))
     }
@@ -254,7 +254,7 @@ pub struct SifExcluded {
     pub bounds: Bounds,
 }
 
-/// A criterion by its name.
+/// Criterion by name.
 fn criterion(name: &str) -> Result<Criterion, String> {
     let found = Criterion::ALL.into_iter().find(|criterion| criterion.name().eq_ignore_ascii_case(name));
     found.ok_or_else(|| format!("there are {}", Criterion::ALL.map(Criterion::name).join(", ")))

@@ -1,4 +1,4 @@
-//! `petril sif check`: what a specification says, and whether it makes sense.
+//! `petril sif check`: valuation counts and sanity checks of a specification.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use super::specification;
 use crate::cli::console::Console;
 use crate::cli::{Outcome, SUCCESS, guard, report::counted};
 
-/// What is said instead of a number.
+/// Text in place of a count that is too large.
 const TOO_MANY: &str = "more than can be counted";
 
 pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
@@ -23,7 +23,7 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     let specification = &read.specification;
     guard::listen();
     let stop: Stop = Arc::new(guard::is_asked);
-    // Counting is limited by itself, and questions may take all the time there is.
+    // Counting has its own limits; the sanity checks are limited by time only.
     guard::phase("counting valuations");
     let counts: Vec<Vec<Counts>> =
         (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
@@ -47,7 +47,7 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     })
 }
 
-/// What there is, and how many valuations each output has.
+/// Summary of the specification, and valuation counts of each output.
 fn text(specification: &Specification, counts: &[Vec<Counts>]) -> String {
     let mut out = String::new();
     let title = specification.title.as_deref().map(|title| line(title) + "\n").unwrap_or_default();
@@ -97,7 +97,7 @@ fn lines(specification: &Specification, counts: &Counts) -> String {
     })
 }
 
-/// How many valuations so many inputs have.
+/// Count of the valuations of `inputs` inputs.
 fn valuations(inputs: usize) -> String {
     match u32::try_from(inputs).ok().and_then(|inputs| 1_u64.checked_shl(inputs)) {
         Some(count) => count.to_string(),
@@ -137,7 +137,7 @@ fn document(specification: &Specification, findings: &[Finding], counts: &[Vec<C
     })
 }
 
-/// A finding as data; where it stands, the diagnostics say.
+/// Finding as JSON; its position is in the diagnostics.
 fn told(specification: &Specification, finding: &Finding) -> Value {
     let name = |id| specification.name(id);
     let example = finding.example.as_ref().map(|example| {

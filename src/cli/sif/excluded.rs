@@ -1,4 +1,4 @@
-//! `petril sif excluded`: what restrictions take away from the tests.
+//! `petril sif excluded`: triggering valuations excluded by restrictions.
 
 use std::process::ExitCode;
 
@@ -26,7 +26,7 @@ pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
     Ok(if is_counted { SUCCESS } else { ExitCode::from(3) })
 }
 
-/// What is excluded from the tests of one function.
+/// Excluded valuations of a function.
 fn text(specification: &Specification, function: usize, excluded: &Excluded, width: usize) -> String {
     let name = &specification.functions[function].name;
     let (Some(triggering), Some(count)) = (&excluded.triggering, &excluded.excluded) else {
@@ -51,12 +51,12 @@ fn text(specification: &Specification, function: usize, excluded: &Excluded, wid
     }
 }
 
-/// Each valuation with the restrictions that exclude it.
+/// Table of the excluded valuations with the restrictions that exclude them.
 fn each(specification: &Specification, excluded: &Excluded, listed: &[(FixedBitSet, Vec<usize>)]) -> Table {
     let inputs = if excluded.varied.len() <= 24 { excluded.varied.as_slice() } else { &[] };
     let mut table = valuations::table(specification, inputs, vec![vec![Column::left("excluded by")]]);
     for (number, (valuation, by)) in listed.iter().enumerate() {
-        // What does not vary is of no interest here.
+        // Inputs that do not vary are shown at rest.
         let mut whole = specification.valuation(specification.inputs().filter(|input| specification.rest(*input)));
         excluded.varied.iter().for_each(|input| whole.set(input.0, valuation.contains(input.0)));
         let names: Vec<&str> = by.iter().map(|at| specification.restrictions[*at].name.as_str()).collect();

@@ -1,4 +1,4 @@
-//! `petril sif import`: a list of inputs and outputs as the frame of a specification.
+//! `petril sif import`: skeleton of a specification from an I/O list.
 
 use std::ffi::OsStr;
 use std::fs;

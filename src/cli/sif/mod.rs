@@ -1,4 +1,4 @@
-//! `petril sif`: safety functions, from their specification to tests and proofs. One file for each verb.
+//! `petril sif`: specification, tests and proofs of safety functions. One file per verb.
 
 pub mod args;
 mod check;
@@ -34,13 +34,13 @@ pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
     }
 }
 
-/// A specification with the texts it was read from.
+/// Specification with its source texts.
 struct Read {
     specification: Specification,
     sources: Vec<Source>,
 }
 
-/// Reads files as one specification. Their diagnostics are printed, warnings too.
+/// Reads files as one specification. Prints their diagnostics, including warnings.
 fn specification(paths: &[PathBuf], console: &Console) -> Result<Read, Failure> {
     let sources: Result<Vec<Source>, Failure> =
         paths.iter().map(|path: &PathBuf| source(Path::new(path), MAX_TEXT, console)).collect();
@@ -56,7 +56,7 @@ fn specification(paths: &[PathBuf], console: &Console) -> Result<Read, Failure> 
     }
 }
 
-/// Prints what stands for nothing in the program.
+/// Prints the diagnostics of signals without a counterpart in the program.
 fn unbound(found: &[Located], sources: &[Source], console: &Console) -> Failure {
     for (file, source) in sources.iter().enumerate() {
         let own: Vec<_> =

@@ -1,4 +1,4 @@
-//! `petril sif prove`: whether a program computes what is specified.
+//! `petril sif prove`: conformance of a program to its specification.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -22,7 +22,7 @@ use crate::cli::{self, check, guard, input};
 pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     let (program, specifications) = split(&arguments.files)?;
     let read = specification(specifications, console);
-    // Both are read before anything is given up, so that all errors are seen at once.
+    // Both are read before either error is returned, so that all errors are reported at once.
     let program = input::program(program, &arguments.meaning.reading, console)?;
     let read = read?;
     let functions = planned::functions(&arguments.function, &read.specification)?;
@@ -48,7 +48,7 @@ fn code(proof: &Proof) -> ExitCode {
     check::code(proof.verdict())
 }
 
-/// The program, which comes last, and the specifications.
+/// Splits the arguments into the program, which comes last, and the specifications.
 fn split(files: &[PathBuf]) -> Result<(&PathBuf, &[PathBuf]), cli::Failure> {
     let is_specification = |path: &PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("sif"));
     match files.split_last() {
@@ -57,7 +57,7 @@ fn split(files: &[PathBuf]) -> Result<(&PathBuf, &[PathBuf]), cli::Failure> {
     }
 }
 
-/// A proof as text for people.
+/// Text report of a proof.
 struct Told<'a> {
     subject: &'a Subject<'a>,
     source: &'a Source,
@@ -122,7 +122,7 @@ impl Told<'_> {
         self.console.paint(word(verdict), colour)
     }
 
-    /// A run whose last scan shows that an output is not what it has to be.
+    /// Counterexample whose last scan shows an output that differs from its specification.
     fn difference(&self, answer: &Answer, scans: &[Scan]) -> String {
         let Some(last) = scans.last() else { return String::new() };
         let (specification, claim) = (self.subject.specification, &answer.claim);
@@ -155,7 +155,7 @@ impl Told<'_> {
         self.subject.inputs().map(|(id, _)| id).collect()
     }
 
-    /// A run in the terms of both: inputs and outputs, below each other, scan by scan.
+    /// Trace in terms of signals and variables: a row per input and output, a column per scan.
     fn table(&self, scans: &[Scan], inputs: &[SignalId], about: Option<&Answer>) -> String {
         let (subject, program) = (self.subject, self.subject.program);
         let columns = (1..=scans.len()).map(|scan| Column::right(format!("scan {scan}"))).collect();
@@ -206,7 +206,7 @@ impl Told<'_> {
     }
 }
 
-/// How an answer was found, in a few words.
+/// Proof method or length of the counterexample.
 fn how(answer: &Answer) -> String {
     match &answer.outcome {
         Outcome::Proved { by, confirmed } => {

@@ -1,4 +1,4 @@
-//! `petril sif requirements`: a specification as a requirement file.
+//! `petril sif requirements`: export of a specification as a requirement file.
 
 use petril::sif::requirements;
 

@@ -1,4 +1,4 @@
-//! `petril sif run`: tests of safety functions on the interpreter.
+//! `petril sif run`: runs tests of safety functions on the interpreter.
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
 use crate::cli::{Outcome, SUCCESS, forms, guard, output, progress};
 
-/// So many tests or faults are told one by one.
+/// Maximum number of listed tests or mutants.
 const MAX_TOLD: usize = 40;
 
 pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
@@ -59,7 +59,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         bar.finish_and_clear();
         found
     });
-    // Faults were left out, whose number the report has.
+    // Mutants not tried are counted in the report.
     let is_stopped = guard::is_asked();
     let is_told = arguments.json || arguments.html.is_some();
     let excluded = if is_told { planned::left_out(&specification, &plans, &limits) } else { Vec::new() };
@@ -95,13 +95,13 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     })
 }
 
-/// What a program with a fault is that passes all tests: a proof says whether it computes what is specified.
+/// Fate of a mutant that passes all tests, by proof against the specification.
 fn decide(specification: &Specification, program: &FlatProgram, tolerated: Tolerated, functions: &[usize]) -> Fate {
     if guard::is_asked() {
         return Fate::Undecided("the work was stopped".to_owned());
     }
     let options = Options { scans: 4, conflicts: 20_000, stop: Arc::new(guard::is_asked), ..Options::default() };
-    // What the program stands for was found for the one without the fault.
+    // Signals were resolved for the original program already.
     let Ok(subject) = Subject::new(specification, program, tolerated, functions) else {
         return Fate::Undecided("a restriction speaks of what the program does not have".to_owned());
     };
@@ -120,7 +120,7 @@ fn decide(specification: &Specification, program: &FlatProgram, tolerated: Toler
     }
 }
 
-/// The whole report.
+/// Text report.
 fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
     let by = match (sheets.origin, sheets.plans.first()) {
         (Some(file), _) => format!("from {}", line(file)),
@@ -150,7 +150,7 @@ fn text(sheets: &Sheets<'_>, ran: &Ran<'_>, console: &Console) -> String {
     out + &ran.hunt.map(|hunt| told(hunt, ran)).unwrap_or_default()
 }
 
-/// A row for each function.
+/// Table of results, a row per function.
 fn summary(sheets: &Sheets<'_>, ran: &Ran<'_>) -> Table {
     let heads = ["tests", "passed", "failed", "errors"].map(Column::right).to_vec();
     let mut table = Table::new(vec![vec![Column::left("function")], heads]);
@@ -163,7 +163,7 @@ fn summary(sheets: &Sheets<'_>, ran: &Ran<'_>) -> Table {
     table
 }
 
-/// The tests that are not passed.
+/// Table of the tests not passed.
 fn failures(sheets: &Sheets<'_>, ran: &Ran<'_>, width: usize) -> String {
     let columns = [Column::left("not passed"), Column::left("why"), Column::left("inputs")];
     let mut table = Table::new(columns.into_iter().map(|column| vec![column]).collect());
@@ -186,7 +186,7 @@ fn failures(sheets: &Sheets<'_>, ran: &Ran<'_>, width: usize) -> String {
     }
 }
 
-/// What the tests leave alone.
+/// Notes on inputs without a signal, and on outputs absent from the program.
 fn notes(sheets: &Sheets<'_>, ran: &Ran<'_>) -> String {
     let mut out = String::new();
     let unset: Vec<&str> = ran.runner.unset().map(|id| ran.program().variable(id).name.as_str()).collect();
@@ -203,7 +203,7 @@ fn notes(sheets: &Sheets<'_>, ran: &Ran<'_>) -> String {
     out
 }
 
-/// Which faults of the program are found.
+/// Table of mutants by fate, and list of those not found.
 fn told(hunt: &Hunt, ran: &Ran<'_>) -> String {
     let heads = ["faults", "found", "equivalent", "missed", "not decided"].map(Column::right).to_vec();
     let mut table = Table::new(vec![vec![Column::left("fault of the program")], heads]);

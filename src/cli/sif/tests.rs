@@ -1,4 +1,4 @@
-//! `petril sif tests`: tests by a criterion or given ones, and which faults they find.
+//! `petril sif tests`: generated or given tests, and their fault coverage.
 
 use std::process::ExitCode;
 
@@ -14,10 +14,10 @@ use crate::cli::console::Console;
 use crate::cli::report::counted;
 use crate::cli::{Outcome, SUCCESS, guard, output};
 
-/// Of so many functions the tests are printed; of more, only figures.
+/// Maximum number of functions whose tests are printed; above it, only counts.
 const MAX_SHOWN: usize = 5;
 
-/// So many faults that are not found are told one by one.
+/// Maximum number of listed faults.
 const MAX_TOLD: usize = 100;
 
 pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
@@ -65,7 +65,7 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     Ok(if is_all { SUCCESS } else { ExitCode::from(3) })
 }
 
-/// Everything about the tests of one function.
+/// Report of the tests of a function.
 fn text(sheets: &Sheets<'_>, plan: &Plan, console: &Console) -> String {
     let specification = sheets.specification;
     let function = &specification.functions[plan.function];
@@ -101,7 +101,7 @@ fn text(sheets: &Sheets<'_>, plan: &Plan, console: &Console) -> String {
     out + &missed(specification, plan)
 }
 
-/// The tests, one on each line.
+/// Table of the tests.
 fn listed(specification: &Specification, plan: &Plan) -> Table {
     let values: Vec<_> = plan.tests.iter().map(|test| &test.values).collect();
     let inputs = valuations::columns(specification, &plan.varied, &values);
@@ -116,7 +116,7 @@ fn listed(specification: &Specification, plan: &Plan) -> Table {
     table
 }
 
-/// What each test is for, where that is known.
+/// Purposes of the tests, where known.
 fn purposes(plan: &Plan) -> String {
     let mut out = String::new();
     for (number, test) in plan.tests.iter().enumerate() {
@@ -128,7 +128,7 @@ fn purposes(plan: &Plan) -> String {
     if out.is_empty() { out } else { format!("\n{out}") }
 }
 
-/// Faults that there are, that nothing shows, that tests find and that they miss.
+/// Fault counts: all, equivalent, undecided and killed.
 #[derive(Clone, Copy, Default)]
 struct Figures {
     faults: usize,
@@ -166,7 +166,7 @@ impl Figures {
     }
 }
 
-/// A line for each class of faults, and one for all.
+/// Table of fault classes with a total.
 fn classes(plan: &Plan) -> Table {
     let mut table = Table::new(vec![vec![Column::left("class of faults")], Figures::HEADS.map(Column::right).to_vec()]);
     for class in plan.coverage.classes.iter().filter(|class| class.faults > 0) {
@@ -182,7 +182,7 @@ fn classes(plan: &Plan) -> Table {
     table
 }
 
-/// The faults that are not found, those with the same reason together.
+/// Faults not found, grouped by reason.
 fn missed(specification: &Specification, plan: &Plan) -> String {
     let mut reasons: Vec<&str> = Vec::new();
     for missed in &plan.coverage.missed {
@@ -213,7 +213,7 @@ fn missed(specification: &Specification, plan: &Plan) -> String {
     out
 }
 
-/// A line for each function.
+/// Table of counts, a row per function.
 fn figures(specification: &Specification, plans: &[Plan]) -> Table {
     let mut heads = vec![Column::right("tests")];
     heads.extend(Figures::HEADS.map(Column::right));
@@ -234,7 +234,7 @@ fn figures(specification: &Specification, plans: &[Plan]) -> Table {
     table
 }
 
-/// A line for each criterion, of all functions together.
+/// Table of criteria over all functions.
 fn compared(specification: &Specification, functions: &[usize], limits: &Limits) -> Table {
     let made: Vec<Vec<Plan>> = functions
         .par_iter()

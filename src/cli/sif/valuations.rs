@@ -1,13 +1,13 @@
-//! Valuations of inputs in lines of a terminal.
+//! Valuations of inputs as text.
 
 use fixedbitset::FixedBitSet;
 use petril::sif::{Cube, SignalId, Specification};
 use petril::witness::{Column, Table};
 
-/// Most inputs that have a column each.
+/// Maximum number of inputs with a column each.
 const MAX_COLUMNS: usize = 24;
 
-/// Which inputs have a column: those that vary, and those that are not at rest; none if they are too many.
+/// Inputs with a column: those that vary and those not at rest; none if there are too many.
 pub fn columns(specification: &Specification, varied: &[SignalId], valuations: &[&FixedBitSet]) -> Vec<SignalId> {
     let is_off =
         |input: &SignalId| valuations.iter().any(|valuation| valuation.contains(input.0) != specification.rest(*input));
@@ -16,7 +16,7 @@ pub fn columns(specification: &Specification, varied: &[SignalId], valuations: &
     if columns.len() > MAX_COLUMNS { Vec::new() } else { columns }
 }
 
-/// A table whose rows begin with a number and inputs, and end with further columns.
+/// Table with a number and inputs as its first columns, followed by `further`.
 pub fn table(specification: &Specification, inputs: &[SignalId], further: Vec<Vec<Column>>) -> Table {
     let mut heads: Vec<Column> = inputs.iter().map(|input| Column::right(specification.name(*input))).collect();
     if heads.is_empty() {
@@ -27,7 +27,7 @@ pub fn table(specification: &Specification, inputs: &[SignalId], further: Vec<Ve
     Table::new(groups)
 }
 
-/// The cells of a valuation: one for each column, or one for all inputs that are not at rest.
+/// Cells of a valuation: one per input, or a single one listing all inputs not at rest.
 pub fn cells(specification: &Specification, inputs: &[SignalId], valuation: &FixedBitSet) -> Vec<String> {
     if inputs.is_empty() {
         let off = specification.inputs().filter(|input| valuation.contains(input.0) != specification.rest(*input));
@@ -37,12 +37,12 @@ pub fn cells(specification: &Specification, inputs: &[SignalId], valuation: &Fix
     inputs.iter().map(|input| bit(valuation.contains(input.0))).collect()
 }
 
-/// 0 or 1.
+/// Bit as 0 or 1.
 pub fn bit(value: bool) -> String {
     u8::from(value).to_string()
 }
 
-/// Cubes, one on each line.
+/// List of cubes, one per line.
 pub fn cubes(specification: &Specification, cubes: &[Cube]) -> String {
     let line = |cube: &Cube| {
         let ones = cube.ones.iter().map(|input| literal(specification, *input, true));
@@ -53,7 +53,7 @@ pub fn cubes(specification: &Specification, cubes: &[Cube]) -> String {
     cubes.iter().map(line).collect()
 }
 
-/// An input that is TRUE, or `!` and an input that is FALSE.
+/// Literal: the input, or `!` and the input.
 fn literal(specification: &Specification, input: SignalId, value: bool) -> String {
     format!("{}{}", if value { "" } else { "!" }, specification.name(input))
 }

@@ -1,4 +1,4 @@
-//! `petril simulate`: a program scan by scan.
+//! `petril simulate`: simulation of a program scan by scan.
 
 mod scans;
 mod show;
@@ -23,10 +23,10 @@ use super::{Failure, Outcome, SUCCESS, guard, input, interactive, output, shown}
 use scans::{Run, scans};
 use steering::Steering;
 
-/// Scans simulated if nothing says how many.
+/// Default number of scans.
 const DEFAULT_SCANS: usize = 10;
 
-/// Scans simulated until a condition is met, if nothing says how many.
+/// Default maximum number of scans with `--until`.
 const UNTIL_SCANS: usize = 1000;
 
 pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
@@ -39,7 +39,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     let (Program { flat, source }, plant) =
         input::parts(&arguments.program, &arguments.plant, &arguments.meaning.reading, console)?;
     let domains = steering::domains(&arguments.domain, &flat, &plant, console)?;
-    // Only who steps through the net needs it, and whoever tells a scan line by line, which plays it there, too.
+    // The net is needed only to step through it, and to list a scan line by line, which plays it on the net, too.
     let is_played = arguments.interactive || arguments.by_line.is_some();
     let compose = if is_played { System::with_domains } else { System::without_net };
     let system = compose(flat, plant, domains);
@@ -64,13 +64,13 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     Ok(tell(arguments, &system, &source, &made, console))
 }
 
-/// A run that is not the one of the report.
+/// Error of a run that differs from the report.
 fn refused(arguments: &Simulate, problem: &str) -> Failure {
     let report = arguments.replay.as_ref().map(|path| format!("{}: ", shown(path)));
     Failure::Message(report.unwrap_or_default() + problem)
 }
 
-/// Shows the run in the terminal. One from a report must be as it was recorded, as always.
+/// Opens the run in the terminal. Replayed runs are compared with their report first.
 fn interact(
     arguments: &Simulate,
     system: &System,
@@ -92,7 +92,7 @@ fn interact(
     interactive::run(screen, console)
 }
 
-/// The form that is asked for, or that the name of the file has.
+/// Output format from the arguments or the file extension.
 fn format(arguments: &Simulate) -> Result<Format, Failure> {
     let ending = arguments.output.as_ref().and_then(|path| path.extension()).and_then(OsStr::to_str);
     let format = arguments.format.unwrap_or(match ending {
@@ -106,7 +106,7 @@ fn format(arguments: &Simulate) -> Result<Format, Failure> {
     Ok(format)
 }
 
-/// What `--until` says.
+/// Condition of `--until`.
 fn until(text: &str, system: &System, console: &Console) -> Result<Bound, Failure> {
     let source = Source::new("condition", text);
     condition(&source, system, View::Scan).map_err(|diagnostics| {
@@ -115,7 +115,7 @@ fn until(text: &str, system: &System, console: &Console) -> Result<Bound, Failur
     })
 }
 
-/// The scans, and one of them line by line.
+/// Prints the scans, and one of them line by line if requested.
 fn print(
     arguments: &Simulate,
     format: Format,
@@ -127,7 +127,7 @@ fn print(
     let trace = &run.trace;
     let scans = counted(trace.scans.len(), "scan");
     let title = format!("{} from {}, {scans}", system.program.name, source.name());
-    // A file has no width.
+    // Files have no width.
     let width = if arguments.output.is_some() { usize::MAX } else { console.output_width() };
     let mut text = show::text(system, trace, format, &title, width);
     if let Some(scan) = arguments.by_line {
@@ -143,7 +143,7 @@ fn print(
     }
 }
 
-/// Says whose run it is and how it ended, and gives the exit code that goes with it.
+/// Prints how the run ended, and returns the exit code.
 fn tell(arguments: &Simulate, system: &System, source: &Source, run: &Run, console: &Console) -> ExitCode {
     let scans = run.trace.scans.len();
     match (&arguments.until, run.failure) {

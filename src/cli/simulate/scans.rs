@@ -1,4 +1,4 @@
-//! The scans of a simulation, one after another.
+//! Scans of a simulation, in sequence.
 
 use petril::explore::{Failure, ScanState};
 use petril::flat::Tolerated;
@@ -9,19 +9,19 @@ use petril::witness::ScanTrace;
 
 use super::steering::Steering;
 
-/// A run, and how it ended.
+/// Simulated run with its end.
 pub struct Run {
     pub trace: ScanTrace,
-    /// What went wrong in the last scan.
+    /// Failure in the last scan.
     pub failure: Option<Failure>,
-    /// Whether the condition was met after the last scan.
+    /// Whether the condition is met after the last scan.
     pub is_met: bool,
 }
 
-/// So many scans, or fewer if a condition is met or a scan goes wrong.
+/// Simulates `count` scans, or fewer if the condition is met or a scan fails.
 ///
 /// # Errors
-/// The run is not the one that was recorded, or the plant cannot do what it did.
+/// The run differs from the recorded one, or a move of the plant is impossible.
 pub fn scans(
     system: &System,
     tolerated: Tolerated,
@@ -41,7 +41,7 @@ pub fn scans(
         if let Some(difference) = recorded.and_then(|run| run.difference(&system.program, position, &scan)) {
             return Err(difference);
         }
-        // What is left by a scan that goes wrong is not known.
+        // The state after a failed scan is undefined.
         let end = scan.end.as_ref().filter(|_| failure.is_none());
         run.is_met = watch.as_mut().zip(end).is_some_and(|(watch, end)| watch.see(&end.memory));
         run.trace.scans.push(scan);

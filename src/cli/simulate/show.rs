@@ -1,4 +1,4 @@
-//! What is printed of a run.
+//! Output of a simulated run.
 
 use petril::exchange::vcd;
 use petril::explore::Failure;
@@ -11,7 +11,7 @@ use petril::witness::{Column, ScanTrace, Table};
 
 use crate::cli::args::Format;
 
-/// The scans that have ended.
+/// Completed scans in the requested format.
 pub fn text(system: &System, trace: &ScanTrace, format: Format, title: &str, width: usize) -> String {
     match format {
         Format::Csv => csv(&system.program, trace),
@@ -20,7 +20,7 @@ pub fn text(system: &System, trace: &ScanTrace, format: Format, title: &str, wid
     }
 }
 
-/// What went wrong in the last scan of a trace, where, and how to go on.
+/// Failure of the last scan with its position and a remedy.
 pub fn explain(failure: Failure, scan: usize, program: &FlatProgram, source: &Source) -> String {
     let (line, hazard) = match failure {
         Failure::Hazard(line, hazard) => (line, hazard),
@@ -39,7 +39,7 @@ pub fn explain(failure: Failure, scan: usize, program: &FlatProgram, source: &So
     format!("in scan {scan}, {what} ({}:{from}: {}){help}", source.name(), source.line_text(from).trim())
 }
 
-/// A row a scan: its number, then the declared variables.
+/// Rows of the completed scans: number and declared variables.
 fn rows(
     program: &FlatProgram,
     trace: &ScanTrace,
@@ -56,13 +56,13 @@ fn csv(program: &FlatProgram, trace: &ScanTrace) -> String {
     let names = program.declared().map(|id| program.variable(id).name.clone());
     let head: Vec<String> = std::iter::once("cycle".to_owned()).chain(names).collect();
     let rows = rows(program, trace, |id, value| program.variable(id).ty.number(value).to_string());
-    // The name of an element of an array with several dimensions has a comma.
+    // Names of elements of multidimensional arrays contain commas.
     let cell = |cell: String| if cell.contains(',') { format!("\"{cell}\"") } else { cell };
     let line = |row: Vec<String>| row.into_iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
     std::iter::once(head).chain(rows).map(line).collect()
 }
 
-/// The declared variables, and what the plant did if there is one.
+/// Table of the declared variables and of the plant's moves, if there is a plant.
 fn table(system: &System, trace: &ScanTrace) -> Table {
     let program = &system.program;
     let names = program.declared().map(|id| Column::right(&program.variable(id).name)).collect();

@@ -1,4 +1,4 @@
-//! Where inputs come from: a table, chance, or a report.
+//! Sources of inputs: a table, random numbers, or a report.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -16,19 +16,19 @@ use crate::cli::args::Simulate;
 use crate::cli::console::Console;
 use crate::cli::{Failure, input, input_table};
 
-/// Tables of inputs and reports may have this many bytes.
+/// Maximum size of input tables and reports, in bytes.
 const MAX_INPUTS: u64 = 1 << 30;
 
-/// What is done before each scan.
+/// Input source of a simulation.
 pub enum Steering<'s> {
-    /// What a table says, then nothing. Without a table, its list is empty.
+    /// Rows of a table, then no changes. Empty without a table.
     Rows(Vec<Plan>),
     Chance(Box<Chance<'s>>),
     Recorded(Recorded),
 }
 
 impl<'s> Steering<'s> {
-    /// As the arguments say.
+    /// Input source given by the arguments.
     pub fn of(arguments: &Simulate, system: &'s System, console: &Console) -> Result<Self, Failure> {
         if let Some(path) = &arguments.inputs {
             let source = input::source(path, MAX_INPUTS, console)?;
@@ -45,7 +45,7 @@ impl<'s> Steering<'s> {
                 .map_err(|error| say(format!("this is no JSON document: {error}")))?;
             return Ok(Self::Recorded(recorded(&report, arguments.requirement.as_deref(), system).map_err(say)?));
         }
-        // Who steps through the run steers, and draws lots by key.
+        // In interactive mode inputs are set by key, random ones too.
         if let Some(seed) = arguments.random.filter(|_| !arguments.interactive) {
             let seed = seed.unwrap_or_else(|| {
                 let seed = any_seed();
@@ -57,7 +57,7 @@ impl<'s> Steering<'s> {
         Ok(Self::Rows(Vec::new()))
     }
 
-    /// How many scans there are by themselves.
+    /// Number of scans given by the source, if bounded.
     pub fn len(&self) -> Option<usize> {
         match self {
             Self::Rows(rows) => Some(rows.len()).filter(|&count| count > 0),
@@ -66,7 +66,7 @@ impl<'s> Steering<'s> {
         }
     }
 
-    /// What is done before the scan at a position, from a state.
+    /// Plan before the scan at a position, from a state.
     pub fn plan(&mut self, position: usize, from: &ScanState) -> Plan {
         match self {
             Self::Rows(rows) => rows.get(position).cloned().unwrap_or_default(),
@@ -75,7 +75,7 @@ impl<'s> Steering<'s> {
         }
     }
 
-    /// The run of a report, if it is one.
+    /// Recorded run of a report, if that is the source.
     pub fn recorded(&self) -> Option<&Recorded> {
         match self {
             Self::Recorded(recorded) => Some(recorded),
@@ -83,7 +83,7 @@ impl<'s> Steering<'s> {
         }
     }
 
-    /// The plans that are known before the run begins.
+    /// Plans known before the run.
     pub fn plans(&self) -> Vec<Plan> {
         match self {
             Self::Rows(rows) => rows.clone(),
@@ -93,13 +93,13 @@ impl<'s> Steering<'s> {
     }
 }
 
-/// A seed that is easily typed, and another one each time.
+/// New seed of at most six digits.
 pub fn any_seed() -> u64 {
     let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     u64::from(now.subsec_nanos()) % 1_000_000
 }
 
-/// The domains of the command line.
+/// Domains given on the command line.
 pub fn domains(texts: &[String], program: &FlatProgram, plant: &Plant, console: &Console) -> Result<Domains, Failure> {
     let mut domains = Domains::new();
     let mut failed = false;

@@ -1,4 +1,4 @@
-//! What the page knows, as one JSON document.
+//! Data of the page, as one JSON document.
 
 use std::collections::BTreeSet;
 
@@ -15,15 +15,15 @@ use petril_lang::semantics::{Role, VarId};
 use petril_logic::View;
 use petril_search::Stop;
 
-/// A longer text of a program is shown in part.
+/// Upper bound on the length of a program's text that is shown whole.
 const MAX_SOURCE: usize = 400_000;
 
-/// The document of a report.
+/// Builds the document of a report.
 pub fn document(checked: &Checked<'_>, stamp: Stamp) -> Value {
     let Checked { system, source, report, provenance } = *checked;
     let program = &system.program;
     let mut runs = Runs::new(*checked);
-    // Room is for what is violated first.
+    // Violated requirements get room first.
     let requirements = report.answers.iter().map(|answer| (answer, "requirement"));
     let all: Vec<(&Answer, &str)> = requirements.chain(report.checks.iter().map(|check| (check, "check"))).collect();
     let mut order: Vec<usize> = (0..all.len()).collect();
@@ -121,7 +121,7 @@ fn remarks(checked: &Checked<'_>) -> Vec<Value> {
     remarks
 }
 
-/// How many lines of flat code there are, and how many of them some scan executes, if that is known.
+/// Number of lines of flat code, and of those that some scan executes, if known.
 fn covered(checked: &Checked<'_>) -> Value {
     let coverage = checked.report.coverage.as_ref();
     let executed = coverage.and_then(|c| Some(c.lines - c.never_executed.as_ref()?.len()));
@@ -153,7 +153,7 @@ fn answer(checked: &Checked<'_>, answer: &Answer, kind: &str, all: &mut Runs<'_>
     document
 }
 
-/// Scans and lines count from 0, as in runs.
+/// Diagnosis of a violation; scans and lines count from 0, as in runs.
 fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
     let program = &checked.system.program;
     let position = |id: VarId| shown(checked.system).position(|own| own == id);
@@ -183,8 +183,8 @@ fn explanation(checked: &Checked<'_>, why: &Why) -> Value {
     })
 }
 
-/// The text of the program: its lines, or, if it is long, the number and text of those that have instructions, with two
-/// lines around each.
+/// Text of the program: all lines or, if it is long, the lines with instructions and two lines around each, with their
+/// numbers.
 fn lines(checked: &Checked<'_>) -> Value {
     let source = checked.source;
     let count = source.line_of(source.text().len());
@@ -204,7 +204,7 @@ fn lines(checked: &Checked<'_>) -> Value {
     kept.map(|line| json!([line, text_of(source, line)])).collect()
 }
 
-/// A line as it stands, indented.
+/// Text of a line, indentation included.
 fn text_of(source: &Source, line: usize) -> &str {
     source.slice(source.lines(line, line)).trim_end()
 }

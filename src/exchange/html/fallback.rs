@@ -1,11 +1,12 @@
-//! The page for readers in which no script runs, such as the previews of mail programs: every answer, runs as plain tables.
+//! Fallback page for readers without scripts, such as the previews of mail programs: all answers, with runs as plain
+//! tables.
 
 use std::fmt::Write as _;
 
 use super::{markup, markup_line};
 use crate::exchange::checked::{Checked, runs, tags, why};
 
-/// Runs are left out when the text has become as long as this.
+/// Length of the text beyond which runs are left out.
 const MAX_TEXT: usize = 500_000;
 
 /// The report as plain markup.

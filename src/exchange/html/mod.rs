@@ -1,8 +1,8 @@
-//! Reports as one page for a browser: a file that needs nothing else, to be mailed and kept.
+//! Reports as a self-contained HTML page, to be mailed and archived.
 //!
-//! The page is made of the files beside this one. What was found stands in it as JSON (`document`), and its script makes all
-//! markup of it, by names and texts that are never read as markup. A content security policy lets nothing run but that script
-//! and nothing be fetched.
+//! The page is assembled from the files beside this one. Results are embedded as JSON (`document`); the script creates
+//! all elements from it, and no text is ever parsed as markup. A content security policy allows only this script, and
+//! no requests.
 
 mod document;
 mod fallback;
@@ -19,11 +19,11 @@ use super::checked::Checked;
 use super::stamp::Stamp;
 use petril_base::printable;
 
-/// The frame, with a name in double braces for each of its parts.
+/// Page template, with a name in double braces for each of its parts.
 const PAGE: &str = include_str!("page.html");
-/// Style sheets in their order.
+/// Style sheets, in order.
 const STYLES: [&str; 3] = [include_str!("page.css"), include_str!("run.css"), include_str!("print.css")];
-/// Scripts in their order; each may use what those before it define.
+/// Scripts, in order; each may use definitions of those before it.
 const SCRIPTS: [&str; 9] = [
     include_str!("elements.js"),
     include_str!("playback.js"),
@@ -36,7 +36,7 @@ const SCRIPTS: [&str; 9] = [
     include_str!("page.js"),
 ];
 
-/// Writes a report.
+/// Writes a report as a page.
 #[must_use]
 pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
     let style = STYLES.concat();
@@ -50,7 +50,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
         ("data", data(checked, stamp)),
         ("script", script),
     ];
-    // The parts are put in from front to back, so what stands in one is never taken for a name.
+    // Parts are inserted from front to back, so that no part's text is taken for a name.
     let mut page = String::new();
     let mut rest = PAGE;
     for (name, text) in parts {
@@ -61,7 +61,7 @@ pub fn write(checked: &Checked<'_>, stamp: Stamp) -> String {
     page + rest
 }
 
-/// Nothing is fetched, and nothing runs but this script, which is known by its hash.
+/// Content security policy: no requests, and no script or style but these, identified by hash.
 fn policy(style: &str, script: &str) -> String {
     let hash = |text: &str| STANDARD.encode(Sha256::digest(text));
     format!(
@@ -71,17 +71,17 @@ fn policy(style: &str, script: &str) -> String {
     )
 }
 
-/// A text without markup, on one line.
+/// Escapes a text, on one line.
 fn markup_line(text: &str) -> String {
     escape(printable::line(text)).into_owned()
 }
 
-/// A text without markup, on its own lines.
+/// Escapes a text, keeping its lines.
 fn markup(text: &str) -> String {
     escape(printable::lines(text)).into_owned()
 }
 
-/// The document, with no character in it that could end the element it stands in. All it says is for people.
+/// The document as JSON, without characters that could end the enclosing element.
 fn data(checked: &Checked<'_>, stamp: Stamp) -> String {
     let mut document = document::document(checked, stamp);
     make_printable(&mut document);
@@ -89,7 +89,7 @@ fn data(checked: &Checked<'_>, stamp: Stamp) -> String {
     text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
-/// Every text of a document on one line. Tabs, which sources are indented by, stay.
+/// Puts every text of a document on one line. Tabs, used for indentation in sources, stay.
 fn make_printable(value: &mut Value) {
     match value {
         Value::String(text) if !text.chars().all(printable::is_printable) => {

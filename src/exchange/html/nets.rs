@@ -1,4 +1,4 @@
-//! The nets on which tokens move: the PLC's cycle and the plant, and the subnets of the lines that are executed in some run.
+//! Nets on which tokens move: the PLC's cycle and the plant, and the subnets of lines executed in some run.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,19 +8,19 @@ use crate::draw::{Anchor, At, Head, Picture, PlaceStyle, subnet, surroundings};
 use petril_check::translate::{System, TransitionRole};
 use petril_net::net::{PlaceId, TransitionId};
 
-/// A picture with more shapes is not for eyes.
+/// Upper bound on the shapes of a picture; larger ones are unreadable.
 const MAX_SHAPES: usize = 2000;
-/// All pictures together have at most this many shapes.
+/// Upper bound on the shapes of all pictures.
 const MAX_ALL: usize = 40_000;
 
-/// Gathers nodes and pictures. Only what some run needs is in the page; nodes get new, small numbers.
+/// Collector of nodes and pictures. The page contains only what some run needs; nodes are renumbered.
 pub struct Nets<'a> {
     system: &'a System,
     places: BTreeMap<PlaceId, usize>,
     place_list: Vec<PlaceId>,
     transitions: BTreeMap<TransitionId, usize>,
     transition_list: Vec<TransitionId>,
-    /// The lines whose subnets are wanted.
+    /// Lines whose subnets are needed.
     lines: BTreeSet<usize>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Nets<'a> {
         }
     }
 
-    /// The number of a transition.
+    /// Number of a transition.
     pub fn transition(&mut self, transition: TransitionId) -> usize {
         let (list, next) = (&mut self.transition_list, self.transitions.len());
         *self.transitions.entry(transition).or_insert_with(|| {
@@ -53,14 +53,14 @@ impl<'a> Nets<'a> {
         })
     }
 
-    /// Asks for the subnet of a line, if there are tokens to move on it.
+    /// Requests the subnet of a line, if tokens move on it.
     pub fn draw(&mut self, line: usize, with_tokens: bool) {
         if with_tokens {
             self.lines.insert(line);
         }
     }
 
-    /// Everything that was asked for.
+    /// Builds everything requested.
     pub fn finish(mut self) -> Value {
         if self.transition_list.is_empty() {
             return Value::Null;
@@ -71,7 +71,7 @@ impl<'a> Nets<'a> {
         let around: Vec<Value> = (surroundings(system).iter())
             .map(|picture| json!([picture.title, self.picture(picture, &mut room)]))
             .collect();
-        // What is too large is not laid out either: subnets of multiplications have thousands of transitions.
+        // Subnets that are too large are not laid out: those of multiplications have thousands of transitions.
         let mut sizes = vec![0_usize; system.program.end()];
         for role in &system.transitions {
             if let TransitionRole::Line(line) = *role {
@@ -85,7 +85,7 @@ impl<'a> Nets<'a> {
             }
         }
         let mut transitions = Vec::new();
-        // Places get numbers while this goes on, transitions do not.
+        // Places still get numbers here, transitions do not.
         for transition in std::mem::take(&mut self.transition_list) {
             let arcs = system.net.arcs(transition);
             let numbers =
@@ -137,7 +137,7 @@ impl<'a> Nets<'a> {
     }
 }
 
-/// A position to half a unit.
+/// Rounds a position to half a unit.
 fn round(x: f64) -> Value {
     let halves = (2.0 * x).round();
     if halves % 2.0 == 0.0 { ((halves / 2.0) as i64).into() } else { (halves / 2.0).into() }

@@ -1,6 +1,6 @@
-//! Runs as the page steps through them: what changed, line by line, in as few characters as possible.
+//! Runs as the page plays them: changes, line by line, in a compact form.
 //!
-//! Variables are positions in the list of those that are shown, lines count from 0, values are 0 and 1 or texts.
+//! Variables are positions in the list of shown ones, lines count from 0, values are 0 and 1 or texts.
 
 use std::collections::BTreeMap;
 
@@ -15,14 +15,14 @@ use petril_lang::flat::value_text;
 use petril_lang::semantics::{Role, VarId};
 use petril_net::net::TransitionId;
 
-/// One run is not told whole if it takes more instructions.
+/// Upper bound on the instructions of a run listed completely.
 const MAX_INSTRUCTIONS: usize = 20_000;
 
-/// What may still go into the page.
+/// Remaining capacity of the page.
 pub struct Room {
-    /// Instructions.
+    /// Number of instructions.
     pub instructions: usize,
-    /// Firings.
+    /// Number of firings.
     pub firings: usize,
 }
 
@@ -32,13 +32,13 @@ impl Default for Room {
     }
 }
 
-/// Writes runs, one after the other.
+/// Writer of runs, one by one.
 pub struct Runs<'a> {
     checked: Checked<'a>,
-    /// For each variable of the program, where it stands in the list of those that are shown.
+    /// Position of each variable in the list of shown ones.
     shown: BTreeMap<VarId, usize>,
     room: Room,
-    /// The nets on which the tokens of the runs move.
+    /// Nets on which the tokens of the runs move.
     pub nets: Nets<'a>,
 }
 
@@ -60,8 +60,8 @@ impl<'a> Runs<'a> {
         run
     }
 
-    /// Says which variables a run is about (`about`), which are shown in which groups (`columns`), and which scans are folded: the first
-    /// one, the last one, how many in words, and what moves.
+    /// Adds the variables a run is about (`about`), the shown variables in groups (`columns`), and the folded
+    /// stretches: first scan, last scan, length in words, changes.
     fn shorten(&self, run: &mut Value, focus: &Focus, trace: &Trace) {
         let system = self.checked.system;
         let columns = focus.columns(system);
@@ -81,7 +81,7 @@ impl<'a> Runs<'a> {
     fn scans(&mut self, trace: &ScanTrace) -> Value {
         let system = self.checked.system;
         let limit = MAX_INSTRUCTIONS.min(self.room.instructions);
-        // A trace that does not replay has no verdict, and so is not here.
+        // A trace that does not replay has no verdict, and does not get here.
         let tell = |from| match limit {
             0 => None,
             _ => story(system, trace, from, limit).unwrap_or_default(),
@@ -105,7 +105,7 @@ impl<'a> Runs<'a> {
             });
             let mut one = json!({});
             let (moves, read) = (names.collect::<Vec<_>>(), self.changes(&mut memory, &scan.inputs));
-            // What is empty is left out: runs may have many scans.
+            // Empty members are left out, since runs may have many scans.
             if !moves.is_empty() {
                 one["moves"] = moves.into();
             }
@@ -131,7 +131,7 @@ impl<'a> Runs<'a> {
         json!({ "kind": "scans", "loop": trace.loop_start, "tokens": with_tokens, "scans": scans })
     }
 
-    /// The variables that have other values than in `memory`, each with its new one; they go into `memory`.
+    /// Variables whose values differ from `memory`, each with its new value; updates `memory`.
     fn changes(&self, memory: &mut [u64], values: &[(VarId, u64)]) -> Value {
         let mut changes = Vec::new();
         for &(id, value) in values {
@@ -148,8 +148,8 @@ impl<'a> Runs<'a> {
         if program.variable(id).ty.is_bool() { value.into() } else { program.value_text(id, value).into() }
     }
 
-    /// Instructions: their lines as lengths of straight pieces, the results, and by position what was written, what
-    /// went wrong, and what fired.
+    /// Instructions in compact form: lines as straight stretches with their lengths, results, and by position the
+    /// writes, hazards and firings.
     fn lines(&mut self, instructions: &[Executed], with_tokens: bool) -> Value {
         let mut pieces: Vec<usize> = Vec::new();
         let mut next = None;
@@ -230,7 +230,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// The variables that are shown: inputs, memory, outputs.
+/// Variables shown: inputs, memory, outputs.
 pub fn shown(system: &System) -> impl Iterator<Item = VarId> {
     [Role::Input, Role::Memory, Role::Output].into_iter().flat_map(|role| system.program.with_role(role))
 }

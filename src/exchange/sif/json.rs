@@ -1,5 +1,5 @@
-//! Tests and what became of them as JSON, for programs. Field names are part of the interface: they are only ever added to.
-//! `docs/schema/sif-tests.schema.json` says what may stand where.
+//! Tests and their results as JSON, for programs. Field names are part of the interface: they are only ever added to.
+//! The schema is `docs/schema/sif-tests.schema.json`.
 
 use fixedbitset::FixedBitSet;
 use serde_json::{Map, Value, json};
@@ -10,7 +10,7 @@ use petril_spec::sif::{
     Coverage, Deviation, Ending, Excluded, Fate, Hunt, Mutant, Plan, SignalId, Specification, Test, TestRun,
 };
 
-/// All there is to tell.
+/// The complete document.
 #[must_use]
 pub fn document(sheets: &Sheets<'_>) -> Value {
     let specification = sheets.specification;
@@ -76,7 +76,7 @@ fn function(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> Value {
     })
 }
 
-/// A test: its inputs are those that vary, and all others that are not at rest.
+/// A test: its inputs are the varied ones, and all others not at rest.
 fn test(specification: &Specification, plan: &Plan, number: usize, test: &Test) -> Value {
     let is_told =
         |input: &SignalId| plan.varied.contains(input) || test.values.contains(input.0) != specification.rest(*input);
@@ -116,7 +116,7 @@ fn result(sheets: &Sheets<'_>, ran: &Ran<'_>, made: &TestRun) -> Value {
     })
 }
 
-/// What tests find and miss.
+/// Mutation score of tests.
 #[must_use]
 pub fn coverage(specification: &Specification, coverage: &Coverage) -> Value {
     let class = |class: &petril_spec::sif::ClassCoverage| {
@@ -143,7 +143,7 @@ pub fn coverage(specification: &Specification, coverage: &Coverage) -> Value {
     })
 }
 
-/// What is left out of the tests of a function.
+/// Excluded valuations of a function.
 #[must_use]
 pub fn excluded(specification: &Specification, excluded: &Excluded) -> Value {
     let name = |position: usize| &specification.restrictions[position].name;

@@ -1,5 +1,5 @@
-//! A run of tests as JUnit XML: a suite for each function, a case for each test. A test that is not passed is a failure; one
-//! that went wrong is an error.
+//! Test run as JUnit XML: a suite for each function, a case for each test. A test that is not passed is a failure; a
+//! run-time error is an error.
 
 use std::io;
 

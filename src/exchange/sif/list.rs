@@ -1,7 +1,7 @@
-//! Lists of inputs and outputs, as engineers keep them in tables (CSV, XLSX), as the frame of a specification.
+//! Import of I/O lists, as engineers keep them in tables (CSV, XLSX), as the skeleton of a specification.
 //!
-//! The first row with a column for names is the head. Columns are found by their words; only a name, and whether it is an input
-//! or an output, has to be there.
+//! The first row with a column for names is the head. Columns are recognised by their titles; only a name, and whether
+//! it is an input or an output, is required.
 
 use std::io::Cursor;
 
@@ -10,7 +10,7 @@ use calamine::{Data, Reader as _, Xlsx};
 use super::plan_csv::separator;
 use petril_lang::syntax::standard_address;
 
-/// What columns are called, in small letters.
+/// Titles of columns, in lower case.
 const HEADS: [(&str, &[&str]); 8] = [
     ("name", &["name", "signal", "tag", "symbol", "signal name", "tag name"]),
     ("direction", &["direction", "i/o", "io", "in/out", "kind", "type", "i/o type", "io type"]),
@@ -25,7 +25,7 @@ const HEADS: [(&str, &[&str]); 8] = [
     ("data type", &["data type", "datatype", "signal type"]),
 ];
 
-/// Kinds of signals, and types of data, that are not Boolean.
+/// Kinds of signals, and data types, that are not Boolean.
 const ANALOGUE: [&str; 26] = [
     "ai",
     "ao",
@@ -55,10 +55,10 @@ const ANALOGUE: [&str; 26] = [
     "string",
 ];
 
-/// The rows of a text with values between commas, semicolons or tabs.
+/// Rows of a text with values separated by commas, semicolons or tabs.
 ///
 /// # Errors
-/// What is no such text.
+/// The text is not a table.
 pub fn rows_of_text(text: &str) -> Result<Vec<Vec<String>>, String> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
@@ -70,18 +70,18 @@ pub fn rows_of_text(text: &str) -> Result<Vec<Vec<String>>, String> {
     rows.collect::<Result<_, csv::Error>>().map_err(|error| error.to_string())
 }
 
-/// Rows and columns of a list at most, and positions in its rows from the first column to the last one used.
+/// Upper bounds on rows and columns of a list, and on cells counted in each row up to the last one used.
 const MAX_ROWS: usize = 100_000;
 const MAX_COLUMNS: usize = 1000;
 const MAX_POSITIONS: usize = 4_000_000;
 
-/// Bytes of all parts of a workbook at most: it is packed, and a small one can unpack to any size.
+/// Upper bound on the unpacked size of a workbook in bytes: a small file can unpack to any size.
 const MAX_UNPACKED: u64 = 256 << 20;
 
-/// The rows of the first sheet of a workbook (XLSX), which is read cell by cell.
+/// Rows of the first sheet of a workbook (XLSX), read cell by cell.
 ///
 /// # Errors
-/// What is no workbook, or has cells that are too far out, or is too large when unpacked.
+/// The bytes are not a workbook, a cell is too far out, or the workbook is too large when unpacked.
 pub fn rows_of_workbook(bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
     if unpacked(bytes).is_some_and(|size| size > MAX_UNPACKED) {
         return Err(format!("unpacked, the workbook has more than {} MiB", MAX_UNPACKED >> 20));
@@ -117,8 +117,8 @@ pub fn rows_of_workbook(bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
     Ok(rows)
 }
 
-/// The sizes that the directory of a ZIP archive gives its parts unpacked, together; `None` if it has no directory, which whoever
-/// reads it will say.
+/// Total unpacked size according to the directory of a ZIP archive; `None` without a directory, which the reader will
+/// report.
 fn unpacked(bytes: &[u8]) -> Option<u64> {
     let number = |at: usize, length: usize| -> Option<u64> {
         let digits = bytes.get(at..at.checked_add(length)?)?;
@@ -128,31 +128,31 @@ fn unpacked(bytes: &[u8]) -> Option<u64> {
     let (count, mut at) = (number(end + 10, 2)?, usize::try_from(number(end + 16, 4)?).ok()?);
     let mut sum = 0;
     for _ in 0..count {
-        // A part of 4 GiB or more has this number here, and its size elsewhere.
+        // For a part of 4 GiB or more this field is 2³² − 1, and the size is elsewhere.
         sum += number(at + 24, 4)?;
         at += 46 + (number(at + 28, 2)? + number(at + 30, 2)? + number(at + 32, 2)?) as usize;
     }
     Some(sum)
 }
 
-/// A line of the list.
+/// Declaration of the list.
 struct Line {
     is_output: bool,
     declaration: String,
     name: String,
 }
 
-/// Functions of zones, with their lines, in the order of the list. What has no function stands before all of them.
+/// Functions by zone, with their declarations, in the order of the list. Inputs without function precede them.
 #[derive(Default)]
 struct Frame {
     inputs: Vec<String>,
     functions: Vec<(String, String, Vec<Line>)>,
 }
 
-/// The frame of a specification. What is left to be written in are its formulas.
+/// Writes the skeleton of a specification, in which only the formulas are missing.
 ///
 /// # Errors
-/// For each row of which too little is said, a sentence.
+/// A sentence for each incomplete row.
 pub fn frame(title: &str, rows: &[Vec<String>]) -> Result<String, Vec<String>> {
     let head = rows.iter().position(|row| column(row, 0).is_some());
     let Some(head) = head else {
@@ -173,7 +173,7 @@ pub fn frame(title: &str, rows: &[Vec<String>]) -> Result<String, Vec<String>> {
     if errors.is_empty() { Ok(frame.text(title)) } else { Err(errors) }
 }
 
-/// The column of a kind, in a row that may be the head.
+/// Column of a kind, in a row that may be the head.
 fn column(row: &[String], kind: usize) -> Option<usize> {
     row.iter().position(|cell| HEADS[kind].1.contains(&cell.to_lowercase().as_str()))
 }
@@ -232,7 +232,7 @@ impl Frame {
         for input in &self.inputs {
             out += &format!("{input}\n");
         }
-        // A zone may be continued, so the order of the list stays.
+        // Zones may be continued, so the order of the list is kept.
         let mut open = String::new();
         for (zone, function, lines) in &mut self.functions {
             if *zone != open {
@@ -255,7 +255,7 @@ impl Frame {
     }
 }
 
-/// Whether a text is an address and no variable: `%IX0.0`, `%I0.0`, `I0.0`, and `E0.0` and `A4.0` of Siemens.
+/// Whether a text is an address rather than a variable: `%IX0.0`, `%I0.0`, `I0.0`, or Siemens' `E0.0` and `A4.0`.
 fn is_address(text: &str) -> bool {
     text.starts_with('%') || text.contains('.') || text.get(1..2).is_some_and(|size| size.eq_ignore_ascii_case("W"))
 }
@@ -269,7 +269,7 @@ fn at_rest(text: &str) -> Option<bool> {
     }
 }
 
-/// Whether a direction, or else an address, is that of an output.
+/// Whether a signal is an output, by its direction or else by its address.
 fn output(direction: &str, address: &str) -> Option<bool> {
     match direction.to_lowercase().as_str() {
         "input" | "in" | "i" | "di" | "digital input" => Some(false),
@@ -282,17 +282,17 @@ fn output(direction: &str, address: &str) -> Option<bool> {
     }
 }
 
-/// The words that mean something in a formula.
+/// Reserved words of formulas.
 const RESERVED: [&str; 8] = ["not", "and", "or", "xor", "implies", "iff", "true", "false"];
 
-/// A name of the language: what is no letter or digit becomes `_`.
+/// Converts a text to an identifier: characters other than letters and digits become `_`.
 fn identifier(text: &str) -> String {
     let plain: String = text.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
     let begins = plain.starts_with(|c: char| c.is_alphabetic() || c == '_');
     if begins && !RESERVED.contains(&plain.to_lowercase().as_str()) { plain } else { format!("_{plain}") }
 }
 
-/// A text of the language, which has no sign for a quotation mark.
+/// Quotes a text; the language has no escape for quotation marks.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.split_whitespace().collect::<Vec<_>>().join(" ").replace('"', "'"))
 }

@@ -1,4 +1,4 @@
-//! Tests of safety functions, and what became of them, in forms for people and programs.
+//! Tests of safety functions and their results, in formats for people and programs.
 
 mod told;
 
@@ -14,53 +14,53 @@ use petril_base::source::Source;
 use petril_lang::flat::FlatProgram;
 use petril_spec::sif::{Excluded, Hunt, Plan, PlanRun, Runner, Specification, Start};
 
-/// Tests of some functions, with all there is to tell of them.
+/// Tests of some functions, with everything to report about them.
 #[derive(Clone, Copy, Debug)]
 pub struct Sheets<'a> {
-    /// What the functions are.
+    /// Specification of the functions.
     pub specification: &'a Specification,
-    /// The texts it was read from.
+    /// Texts of the specification.
     pub sources: &'a [Source],
-    /// The tests, function after function.
+    /// Tests, one plan per function.
     pub plans: &'a [Plan],
-    /// The file that the tests were read from; nothing if they were made by their criteria.
+    /// File that the tests were read from; `None` if they were generated.
     pub origin: Option<&'a str>,
-    /// What is left out of each plan; empty if nobody asked.
+    /// Excluded valuations for each plan; empty if not requested.
     pub excluded: &'a [Excluded],
-    /// What became of the tests, if they were run.
+    /// Results, if the tests were run.
     pub run: Option<Ran<'a>>,
-    /// Where all this comes from.
+    /// Provenance of the protocol.
     pub provenance: &'a Provenance,
 }
 
-/// A run of tests.
+/// Test run.
 #[derive(Clone, Copy, Debug)]
 pub struct Ran<'a> {
-    /// What ran them.
+    /// Test runner.
     pub runner: &'a Runner<'a>,
-    /// The text of the program.
+    /// Text of the program.
     pub source: &'a Source,
-    /// What became of the tests of each plan.
+    /// Results of each plan.
     pub results: &'a [PlanRun],
-    /// Which faults of the program they find, if that was asked for.
+    /// Result of mutation testing, if requested.
     pub hunt: Option<&'a Hunt>,
 }
 
 impl<'a> Ran<'a> {
-    /// The program.
+    /// Program under test.
     #[must_use]
     pub fn program(&self) -> &'a FlatProgram {
         self.runner.program()
     }
 
-    /// How many tests were passed, failed, and ended in an error.
+    /// Number of tests that were passed, failed, and ended in an error.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |word| self.results.iter().flat_map(|run| &run.tests).filter(|t| t.ending.word() == word).count();
         ["passed", "failed", "error"].map(count)
     }
 
-    /// What tests begin with, in a word.
+    /// Initial state of tests, in one word.
     #[must_use]
     pub fn mode(&self) -> &'static str {
         match self.runner.start() {
@@ -71,7 +71,7 @@ impl<'a> Ran<'a> {
 }
 
 impl Sheets<'_> {
-    /// How many tests there are.
+    /// Number of tests.
     #[must_use]
     pub fn tests(&self) -> usize {
         self.plans.iter().map(|plan| plan.tests.len()).sum()

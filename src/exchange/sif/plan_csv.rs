@@ -1,8 +1,8 @@
-//! Tests as a table (CSV): one row for each, with the inputs to set and the outputs to expect; also read back, as somebody
-//! may have changed it.
+//! Tests as a table (CSV): one row per test, with the inputs to set and the outputs to expect; also read back, possibly
+//! edited.
 //!
-//! The first columns are `test`, `function`, `criterion` and `purpose`; each further one is a signal. Inputs that have no
-//! column are at rest. Where an output has no value, the specification says what is expected.
+//! The first columns are `test`, `function`, `criterion` and `purpose`; each further column is a signal. Inputs without
+//! column are at rest. Where an output has no value, the specification determines the expected one.
 
 use fixedbitset::FixedBitSet;
 
@@ -13,7 +13,7 @@ use petril_base::source::{Source, Span};
 use petril_lang::syntax::ast::key;
 use petril_spec::sif::{Coverage, Criterion, Kind, Plan, SignalId, Specification, Test};
 
-/// The columns that are no signals.
+/// Columns that are not signals.
 const COLUMNS: [&str; 4] = ["test", "function", "criterion", "purpose"];
 
 /// Writes the tests of all plans.
@@ -50,7 +50,7 @@ pub fn write(sheets: &Sheets<'_>) -> String {
     table::write(std::iter::once(head).chain(rows))
 }
 
-/// What a column means.
+/// Meaning of a column.
 #[derive(Clone, Copy)]
 enum Column {
     Fixed(usize),
@@ -61,7 +61,7 @@ enum Column {
 /// Reads tests. Values are separated by commas, semicolons or tabs, as in the first row.
 ///
 /// # Errors
-/// Columns that mean nothing, functions that do not exist, values that are none.
+/// Unknown columns, unknown functions, invalid values.
 pub fn read(source: &Source, specification: &Specification) -> Result<Vec<Plan>, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let mut reader = csv::ReaderBuilder::new()
@@ -121,7 +121,7 @@ pub fn read(source: &Source, specification: &Specification) -> Result<Vec<Plan>,
     if errors.is_empty() { Ok(plans) } else { Err(errors) }
 }
 
-/// What separates values: the sign that the first line has most of.
+/// Separator of values: the candidate that occurs most often in the first line.
 pub fn separator(text: &str) -> u8 {
     let first = text.lines().next().unwrap_or_default();
     let count = |sign: u8| first.bytes().filter(|byte| *byte == sign).count();
@@ -185,7 +185,7 @@ fn columns(
 
 type Row = (usize, Criterion, Test, Vec<SignalId>);
 
-/// A test, and the outputs it says something of.
+/// A test, with the outputs for which the row has a value.
 fn row(
     record: &csv::StringRecord,
     columns: &[Column],

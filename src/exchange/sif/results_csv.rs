@@ -1,10 +1,10 @@
-//! What became of tests as a table (CSV): one row for each.
+//! Test results as a table (CSV): one row per test.
 
 use super::told::{brief, error_line, reasons};
 use super::{Ran, Sheets};
 use crate::exchange::{Provenance, table};
 
-/// The columns.
+/// Columns of the table.
 const COLUMNS: [&str; 12] =
     ["function", "test", "result", "start", "scans", "inputs", "reason", "line", "tool", "files", "options", "command"];
 

@@ -1,4 +1,4 @@
-//! What is said of a test and of what became of it.
+//! Descriptions of tests and their results.
 
 use super::{Ran, Sheets};
 use petril_check::scans::Failure;
@@ -6,12 +6,12 @@ use petril_lang::flat::Hazard;
 use petril_lang::interpret::Fault;
 use petril_spec::sif::{Ending, Plan, SignalId, Test, TestRun};
 
-/// TRUE or FALSE.
+/// Spelling of a Boolean: TRUE or FALSE.
 pub fn truth(value: bool) -> &'static str {
     if value { "TRUE" } else { "FALSE" }
 }
 
-/// The inputs of a test that do not have their rest value, as `MODE_Acc = TRUE`.
+/// Inputs of a test that are not at rest, as `MODE_Acc = TRUE`.
 #[must_use]
 pub fn brief(sheets: &Sheets<'_>, test: &Test) -> String {
     let specification = sheets.specification;
@@ -21,7 +21,7 @@ pub fn brief(sheets: &Sheets<'_>, test: &Test) -> String {
     if set.is_empty() { "all inputs at rest".to_owned() } else { set.join(", ") }
 }
 
-/// Why a test is not passed: a sentence for each output, or for the error. Empty if it is.
+/// Reasons why a test is not passed: a sentence for each output, or for the error. Empty if it is passed.
 #[must_use]
 pub fn reasons(sheets: &Sheets<'_>, ran: &Ran<'_>, test: &TestRun) -> Vec<String> {
     match &test.ending {
@@ -63,7 +63,7 @@ fn error(ran: &Ran<'_>, failure: Failure, scan: u64) -> String {
     format!("in scan {scan}, {what} ({}:{line}: {})", ran.source.name(), ran.source.line_text(line).trim())
 }
 
-/// The source line of an error.
+/// Source line of an error.
 pub fn error_line(ran: &Ran<'_>, test: &TestRun) -> Option<usize> {
     match test.ending {
         Ending::Error(Failure::Hazard(line, _)) => Some(ran.source.line_of(ran.program().code[line].span.start)),
@@ -71,7 +71,7 @@ pub fn error_line(ran: &Ran<'_>, test: &TestRun) -> Option<usize> {
     }
 }
 
-/// What the tests of a plan are made by, in words.
+/// Origin of a plan's tests, in words.
 pub fn made_by(sheets: &Sheets<'_>, plan: &Plan) -> String {
     match sheets.origin {
         Some(file) => format!("the tests of {file}"),

@@ -1,4 +1,4 @@
-//! Where a run stops.
+//! Breakpoints: conditions at which a run stops.
 
 use crate::requirement::bind;
 use crate::translate::System;
@@ -6,30 +6,30 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Source;
 use petril_logic::{Bound, View, parse_formula};
 
-/// A condition at which a run stops.
+/// Breakpoint condition.
 #[derive(Clone, Debug)]
 pub enum Breakpoint {
-    /// It is about the variables at the end of a scan, and perhaps of scans before.
+    /// Condition on the variables at the end of a scan, possibly on earlier scans.
     Scans(Bound),
-    /// It is about lines, places or transitions, too, so that each firing matters.
+    /// Condition on lines, places or transitions, too, so that it is evaluated after each firing.
     Firings(Bound),
 }
 
 impl Breakpoint {
-    /// Reads a condition about the end of a scan or, if it speaks of lines, places or transitions, about any marking.
+    /// Reads a condition on the end of a scan or, if it mentions lines, places or transitions, on any marking.
     ///
     /// # Errors
-    /// It is no formula, speaks of what the program does not have, or of what comes later.
+    /// The text is not a formula, mentions what the program does not have, or is about the future.
     pub fn read(text: &Source, system: &System) -> Result<Self, Vec<Diagnostic>> {
         let at_end = condition(text, system, View::Scan).map(Self::Scans);
         at_end.or_else(|errors| condition(text, system, View::Transition).map(Self::Firings).map_err(|_| errors))
     }
 }
 
-/// A condition about a run so far.
+/// Reads a condition on a run so far.
 ///
 /// # Errors
-/// It is no formula, speaks of what the view does not have, or of what comes later.
+/// The text is not a formula, mentions what the view does not have, or is about the future.
 pub fn condition(text: &Source, system: &System, view: View) -> Result<Bound, Vec<Diagnostic>> {
     let formula = parse_formula(text).map_err(|error| vec![error])?;
     let bound = bind(&formula, system, view)?;

@@ -1,4 +1,4 @@
-//! Inputs and moves of the plant by chance. The same seed gives the same run.
+//! Random inputs and plant moves. Equal seeds give equal runs.
 
 use super::lots::Lots;
 use super::plan::Plan;
@@ -8,33 +8,34 @@ use crate::translate::{Domain, System};
 use petril_lang::flat::{Instruction, Operand};
 use petril_lang::semantics::VarId;
 
-/// A free input changes before one scan in so many: what needs several scans, like a timer, should come about.
+/// A free input changes before one scan in `CHANGES`, so that effects that need several scans, such as a timer, come
+/// about.
 const CHANGES: u128 = 4;
 
-/// One number in so many is any of the domain; the others lie where the program may tell numbers apart.
+/// One number in `ANY` is drawn from the whole domain; the others are near values that the program may distinguish.
 const ANY: u128 = 4;
 
-/// Makes plans by chance.
+/// Generator of random plans.
 #[derive(Clone, Debug)]
 pub struct Chance<'s> {
     system: &'s System,
     lots: Lots,
-    /// One for each component of the plant.
+    /// Random walk of each component of the plant.
     walks: Vec<Walk>,
     inputs: Vec<FreeInput>,
 }
 
-/// A free input with its values.
+/// Free input with its values.
 #[derive(Clone, Debug)]
 struct FreeInput {
     variable: VarId,
     domain: Domain,
-    /// Values at which something may change: the ends of its domain, and those beside constants of the program.
+    /// Values at which behaviour may change: the ends of the domain, and the neighbourhood of constants of the program.
     interesting: Vec<i128>,
 }
 
 impl<'s> Chance<'s> {
-    /// The plans of a seed.
+    /// Creates the generator for a seed.
     #[must_use]
     pub fn new(system: &'s System, seed: u64) -> Self {
         let constants = constants(system);
@@ -51,7 +52,7 @@ impl<'s> Chance<'s> {
         Self { system, lots: Lots::new(seed), walks, inputs: inputs.collect() }
     }
 
-    /// What is done before the next scan from a state: the plant walks, some free inputs change.
+    /// Plan for the next scan from a state: the plant walks, some free inputs change.
     pub fn plan(&mut self, from: &ScanState) -> Plan {
         let mut plan = Plan::default();
         for (component, walk) in self.walks.iter_mut().enumerate() {
@@ -67,7 +68,7 @@ impl<'s> Chance<'s> {
 }
 
 impl FreeInput {
-    /// Another value than it has, if there are two; else any.
+    /// A new value: the other one of two, else a random one.
     fn value(&self, now: u64, lots: &mut Lots) -> u64 {
         if self.domain.size() == 2 {
             return self.domain.patterns().find(|&pattern| pattern != now).unwrap_or(now);
@@ -77,7 +78,7 @@ impl FreeInput {
     }
 }
 
-/// A value by its position in a domain.
+/// Value at a position of a domain.
 fn nth(domain: &Domain, mut position: u128) -> i128 {
     for &(from, to) in domain.ranges() {
         let size = (to - from + 1) as u128;
@@ -89,7 +90,7 @@ fn nth(domain: &Domain, mut position: u128) -> i128 {
     domain.ranges()[0].0
 }
 
-/// The constants and initial values of a program and the numbers beside them, and those beside 0.
+/// Constants and initial values of a program, and 0, each with its neighbours.
 fn constants(system: &System) -> Vec<i128> {
     let initial = system.program.variables.iter().map(|variable| variable.ty.number(variable.initial));
     let mut numbers: Vec<i128> = initial.chain([0]).collect();

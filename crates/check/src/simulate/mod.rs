@@ -1,8 +1,8 @@
-//! Runs that somebody steers, or chance: scan by scan, or within a scan line by line and firing by firing, back as well as
-//! forward.
+//! Simulation: runs that are steered or random, scan by scan, or within a scan line by line and firing by firing, back
+//! as well as forward.
 //!
-//! Whole scans are executed by the interpreter. Whoever goes into a scan gets the token game and the interpreter side by
-//! side, as [`crate::witness::Replay`] runs them.
+//! Whole scans are executed by the interpreter. Within a scan, the token game and the interpreter run side by side, as
+//! in [`crate::witness::Replay`].
 
 mod breakpoint;
 mod chance;

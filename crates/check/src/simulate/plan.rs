@@ -1,4 +1,4 @@
-//! What is done before a scan, and the scan it makes.
+//! Plans, and the execution of a scan by its plan.
 
 use std::fmt;
 
@@ -9,16 +9,16 @@ use petril_lang::flat::Tolerated;
 use petril_lang::interpret::Machine;
 use petril_lang::semantics::{Role, VarId};
 
-/// What is done before a scan.
+/// Plan of a scan: plant moves and input changes before it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
-    /// What the plant does.
+    /// Moves of the plant.
     pub moves: Vec<PlantMove>,
-    /// Free inputs that get another value, as patterns. The others keep theirs.
+    /// Free inputs with new values, as bit patterns of their types. Other inputs keep theirs.
     pub inputs: Vec<(VarId, u64)>,
 }
 
-/// The plant cannot do what a plan says: the name of the transition that is not enabled.
+/// Planned move that the plant cannot make: the name of the transition that is not enabled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Impossible(pub String);
 
@@ -28,12 +28,12 @@ impl fmt::Display for Impossible {
     }
 }
 
-/// The scan from a state, and what went wrong in it.
+/// Executes the scan from a state; returns its failure, too.
 ///
-/// After a failure the end of the scan, if it has one, is as if the hazard were tolerated.
+/// After an error, the rest of the scan, if it ends, is computed as if the hazard were tolerated.
 ///
 /// # Errors
-/// The plant cannot do what the plan says.
+/// The plant cannot make a planned move.
 pub fn scan(
     system: &System,
     tolerated: Tolerated,
@@ -57,7 +57,7 @@ pub fn scan(
     Ok((Scan { moves: plan.moves.clone(), inputs, end, hazard }, failure))
 }
 
-/// The plant's markings after some moves from a state.
+/// Markings of the plant after some moves from a state.
 pub(super) fn moved(system: &System, from: &ScanState, moves: &[PlantMove]) -> Result<Vec<usize>, Impossible> {
     let mut plant = from.plant.clone();
     for &chosen in moves {
@@ -68,8 +68,8 @@ pub(super) fn moved(system: &System, from: &ScanState, moves: &[PlantMove]) -> R
     Ok(plant)
 }
 
-/// What a component can do between two scans, in some markings of the plant, and where it leads. The outputs are those of
-/// the scan before.
+/// Moves that a component can make between two scans, in some markings of the plant, each with the marking it leads to.
+/// Outputs are those of the scan before.
 pub(super) fn enabled<'a>(
     system: &'a System,
     from: &'a ScanState,
@@ -83,10 +83,10 @@ pub(super) fn enabled<'a>(
         .map(move |step| (PlantMove { component, transition: step.transition }, step.target))
 }
 
-/// The values that all inputs get: from the plant, from the plan, or those they had.
+/// Values of all inputs: driven by the plant, set by the plan, or unchanged.
 pub(super) fn inputs(system: &System, from: &ScanState, plant: &[usize], plan: &Plan) -> Vec<(VarId, u64)> {
     let mut memory = from.memory.clone();
-    // A domain need not have the value of power-on.
+    // The initial value may lie outside the domain.
     for (&input, domain) in &system.domains {
         if !domain.contains(domain.ty.number(memory[input.0])) {
             memory[input.0] = domain.ty.pattern(domain.ranges()[0].0);

@@ -1,4 +1,4 @@
-//! A run under somebody's hands.
+//! Interactive session: a run that is stepped and steered.
 
 use super::breakpoint::Breakpoint;
 use super::chance::Chance;
@@ -13,29 +13,29 @@ use petril_lang::flat::Tolerated;
 use petril_lang::semantics::{Role, Type, VarId};
 use petril_net::net::TransitionId;
 
-/// A run that can be taken forward and back, by scans, lines and transitions, and whose inputs can be chosen before each scan.
+/// A run that can be stepped forward and back, by scans, lines and transitions, with inputs chosen before each scan.
 ///
-/// What is done before each scan is written down. Going back keeps it, so that going forward again does the same; a change
-/// begins another future.
+/// The plan of each scan is recorded. Stepping back keeps the plans, so stepping forward repeats them; a change
+/// discards the plans after it.
 #[derive(Clone, Debug)]
 pub struct Session<'s> {
     system: &'s System,
     tolerated: Tolerated,
     power_on: ScanState,
-    /// The scans that have ended.
+    /// Scans that have ended.
     scans: Vec<Scan>,
-    /// What was done before each scan, and what is to be done before the next ones.
+    /// Plans of the scans that have ended and of the next ones.
     plans: Vec<Plan>,
-    /// The first scan for which another plan was made than it began with.
+    /// First scan whose plan differs from the original one.
     altered: usize,
-    /// The scan that is under way.
+    /// Scan under way.
     within: Option<Within<'s>>,
-    /// What went wrong in the last scan.
+    /// Failure of the last scan.
     failure: Option<Failure>,
 }
 
 impl<'s> Session<'s> {
-    /// A run at power-on, and what is to be done before its first scans.
+    /// Starts a session at power-on, with plans for the first scans.
     #[must_use]
     pub fn new(system: &'s System, tolerated: Tolerated, plans: Vec<Plan>) -> Self {
         let power_on = ScanState::power_on(system);
@@ -48,31 +48,31 @@ impl<'s> Session<'s> {
         self.system
     }
 
-    /// The scans that have ended.
+    /// Scans that have ended.
     #[must_use]
     pub fn scans(&self) -> &[Scan] {
         &self.scans
     }
 
-    /// How many scans are planned, those that have ended included.
+    /// Number of scans planned, including those that have ended.
     #[must_use]
     pub fn planned(&self) -> usize {
         self.plans.len().max(self.scans.len())
     }
 
-    /// Whether the scans that have ended are those that were planned when the session began.
+    /// Whether the scans that have ended follow the original plans.
     #[must_use]
     pub fn is_as_planned(&self) -> bool {
         self.scans.len() <= self.altered
     }
 
-    /// The state at the end of the last scan.
+    /// State at the end of the last scan.
     #[must_use]
     pub fn state(&self) -> &ScanState {
         self.scans.last().and_then(|scan| scan.end.as_ref()).unwrap_or(&self.power_on)
     }
 
-    /// The state one scan earlier.
+    /// State one scan earlier.
     fn earlier(&self) -> &ScanState {
         let before = self.scans.len().checked_sub(2).and_then(|position| self.scans[position].end.as_ref());
         before.unwrap_or(&self.power_on)
@@ -84,13 +84,13 @@ impl<'s> Session<'s> {
         self.within.is_some()
     }
 
-    /// What went wrong in the last scan.
+    /// Failure of the last scan.
     #[must_use]
     pub fn failure(&self) -> Option<Failure> {
         self.failure
     }
 
-    /// The line that is executed next (from 0), if control is at one or within it; the line behind the last is the end.
+    /// Line to be executed next (from 0), if control is at a line or within it; the line after the last one is the end.
     #[must_use]
     pub fn line(&self) -> Option<usize> {
         match self.within.as_ref()?.replay.control() {
@@ -99,13 +99,13 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// The current result, within a program.
+    /// Current result, if control is in the program.
     #[must_use]
     pub fn result(&self) -> Option<(Type, u64)> {
         self.line().and(self.within.as_ref()).map(|within| within.replay.typed_result())
     }
 
-    /// The value a variable has now.
+    /// Current value of a variable.
     #[must_use]
     pub fn value(&self, variable: VarId) -> u64 {
         match &self.within {
@@ -114,20 +114,20 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Whether a variable has another value than at the end of the scan before.
+    /// Whether a variable's value differs from that at the end of the previous scan.
     #[must_use]
     pub fn is_changed(&self, variable: VarId) -> bool {
         let before = if self.is_within() { self.state() } else { self.earlier() };
         self.value(variable) != before.memory[variable.0]
     }
 
-    /// The token game as it stands.
+    /// Current state of the token game.
     #[must_use]
     pub fn replay(&self) -> Replay<'s> {
         self.within.as_ref().map_or_else(|| Replay::after(self.system, self.state()), |within| within.replay.clone())
     }
 
-    /// The transition that fires next, if the run can go on.
+    /// Transition that fires next, if the run can continue.
     #[must_use]
     pub fn next_transition(&self) -> Option<TransitionId> {
         self.go_on().ok()?;
@@ -137,13 +137,13 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// What is to be done before the next scan, or was done before the one that is under way.
+    /// Plan of the next scan, or of the one under way.
     #[must_use]
     pub fn plan(&self) -> Plan {
         self.plans.get(self.scans.len()).cloned().unwrap_or_default()
     }
 
-    /// The values that the next scan will read. If the plant cannot do what is planned, it stands.
+    /// Inputs that the next scan will read. A plant that cannot make the planned moves stays where it is.
     #[must_use]
     pub fn next_inputs(&self) -> Vec<(VarId, u64)> {
         let (from, plan) = (self.state(), self.plan());
@@ -151,7 +151,7 @@ impl<'s> Session<'s> {
         plan::inputs(self.system, from, &plant, &plan)
     }
 
-    /// What the plant can do before the next scan, after what is planned already.
+    /// Moves that the plant can make before the next scan, after those already planned.
     #[must_use]
     pub fn choices(&self) -> Vec<PlantMove> {
         let from = self.state();
@@ -163,17 +163,17 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Writes down another plan for the next scan; what was planned behind it is dropped.
+    /// Replaces the plan of the next scan and discards those after it.
     fn change(&mut self, plan: Plan) {
         self.altered = self.altered.min(self.scans.len());
         self.plans.resize(self.scans.len(), Plan::default());
         self.plans.push(plan);
     }
 
-    /// Lets the plant do something before the next scan.
+    /// Adds a plant move before the next scan.
     ///
     /// # Errors
-    /// It cannot, or a scan is under way.
+    /// The plant cannot make the move, or a scan is under way.
     pub fn act(&mut self, chosen: PlantMove) -> Result<(), Stopped> {
         if self.is_within() {
             return Err(Stopped::UnderWay);
@@ -185,7 +185,7 @@ impl<'s> Session<'s> {
         Ok(())
     }
 
-    /// Takes back the last thing that the plant was to do.
+    /// Removes the last planned plant move.
     pub fn take_back(&mut self) {
         let mut plan = self.plan();
         if !self.is_within() && plan.moves.pop().is_some() {
@@ -193,10 +193,10 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Whether an input can get another value now.
+    /// Whether an input can be set now.
     ///
     /// # Errors
-    /// It is no input, the plant drives it, or a scan is under way.
+    /// The variable is not an input, the plant drives it, or a scan is under way.
     pub fn may_set(&self, input: VarId) -> Result<(), Stopped> {
         if self.system.program.variable(input).role != Role::Input {
             Err(Stopped::NoInput)
@@ -209,10 +209,10 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Gives an input a value, a pattern of its type, for the next scan and those behind it.
+    /// Sets an input to a value, a bit pattern of its type, from the next scan on.
     ///
     /// # Errors
-    /// As [`Session::may_set`], or it cannot have this value.
+    /// As [`Session::may_set`], or the value lies outside the domain.
     pub fn set(&mut self, input: VarId, value: u64) -> Result<(), Stopped> {
         self.may_set(input)?;
         let domain = self.system.domain(input);
@@ -226,7 +226,7 @@ impl<'s> Session<'s> {
         Ok(())
     }
 
-    /// Gives a truth value that is read the other value.
+    /// Negates a Boolean input.
     ///
     /// # Errors
     /// As [`Session::set`].
@@ -235,7 +235,7 @@ impl<'s> Session<'s> {
         self.set(input, now ^ 1)
     }
 
-    /// Plans the next scan by chance.
+    /// Replaces the plan of the next scan by a random one.
     ///
     /// # Errors
     /// A scan is under way.
@@ -248,10 +248,10 @@ impl<'s> Session<'s> {
         Ok(())
     }
 
-    /// Makes the next scan, or the rest of the one that is under way.
+    /// Executes the next scan, or the rest of the one under way.
     ///
     /// # Errors
-    /// The plant cannot do what is planned, the scan never ends, or the one before failed.
+    /// The plant cannot make a planned move, the scan never ends, or the one before failed.
     pub fn step_scan(&mut self) -> Result<(), Stopped> {
         self.go_on()?;
         let made = plan::scan(self.system, self.tolerated, self.state(), &self.plan());
@@ -265,7 +265,7 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// A run does not go on behind a failure.
+    /// Checks that no failure ends the run.
     fn go_on(&self) -> Result<(), Stopped> {
         self.failure.map_or(Ok(()), |failure| Err(Stopped::Failed(failure)))
     }
@@ -283,7 +283,7 @@ impl<'s> Session<'s> {
     /// Fires the next transition: of the plant, of the PLC's cycle, or of a line.
     ///
     /// # Errors
-    /// The plant cannot do what is planned, or the scan before failed.
+    /// The plant cannot make a planned move, or the scan before failed.
     pub fn step_transition(&mut self) -> Result<(), Stopped> {
         self.go_on()?;
         let mut within = match self.within.take() {
@@ -299,7 +299,7 @@ impl<'s> Session<'s> {
         Ok(())
     }
 
-    /// Executes the next line. Before a scan, goes to its first line; behind its last line, ends it.
+    /// Executes the next line. Before a scan, goes to its first line; after its last line, ends it.
     ///
     /// # Errors
     /// As [`Session::step_transition`].
@@ -312,10 +312,10 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Goes back to the beginning of the scan that is under way, or of the one before.
+    /// Goes back to the beginning of the scan under way, or of the previous one.
     ///
     /// # Errors
-    /// There is nothing before power-on.
+    /// The run is at power-on.
     pub fn back_scan(&mut self) -> Result<(), Stopped> {
         if self.within.take().is_none() {
             self.scans.pop().ok_or(Stopped::PowerOn)?;
@@ -327,7 +327,7 @@ impl<'s> Session<'s> {
     /// Takes back the last firing.
     ///
     /// # Errors
-    /// There is nothing before power-on.
+    /// The run is at power-on.
     pub fn back_transition(&mut self) -> Result<(), Stopped> {
         self.back_to(|fired, _| fired)
     }
@@ -335,13 +335,13 @@ impl<'s> Session<'s> {
     /// Takes back the last line.
     ///
     /// # Errors
-    /// There is nothing before power-on.
+    /// The run is at power-on.
     pub fn back_line(&mut self) -> Result<(), Stopped> {
         self.back_to(|_, line| line)
     }
 
-    /// Goes back to one of two earlier points of the scan: after the firing before the last one, and where control was last at
-    /// a line before that; 0 is its beginning.
+    /// Goes back to a point of the scan chosen by its number of firings from two: before the last firing, and where
+    /// control was last at a line before that; 0 is the beginning of the scan.
     fn back_to(&mut self, choose: impl Fn(usize, usize) -> usize) -> Result<(), Stopped> {
         let limit = self.within.as_ref().map(|within| within.fired);
         self.back_scan()?;
@@ -364,8 +364,8 @@ impl<'s> Session<'s> {
         Ok(())
     }
 
-    /// Goes on until a breakpoint is met, at least one step. Says whether it was, within so many scans, or firings if the
-    /// breakpoint is about those. With chance, it makes plans where there are none.
+    /// Steps until a breakpoint is met, at least once. Returns whether it was met within `limit` scans, or firings if
+    /// the breakpoint is about those. With `chance`, scans without a plan get a random one.
     ///
     /// # Errors
     /// As [`Session::step_scan`].

@@ -1,4 +1,4 @@
-//! Why a session does not go where it is told to.
+//! Reasons why a session cannot make a step.
 
 use std::fmt;
 
@@ -6,24 +6,24 @@ use super::plan::Impossible;
 use crate::scans::Failure;
 use crate::witness::Disagreement;
 
-/// Why a step was not made.
+/// Reason why a step was not made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stopped {
-    /// There is nothing before power-on.
+    /// The run is at power-on.
     PowerOn,
-    /// This can be done only between two scans.
+    /// The action is possible only between two scans.
     UnderWay,
-    /// It is no input: the program gives it its values.
+    /// The variable is not an input.
     NoInput,
-    /// The plant gives this input its values.
+    /// The input is driven by the plant.
     Driven,
-    /// The input cannot have this value.
+    /// The value lies outside the input's domain.
     NoValue,
-    /// The plant cannot do this.
+    /// The plant cannot make the move.
     Plant(Impossible),
-    /// The scan fails, or the one before did: what comes then is not known.
+    /// The scan fails, or the one before did: the continuation is not known.
     Failed(Failure),
-    /// Net and interpreter differ, which is an error in Petril.
+    /// Net and interpreter disagree, which is an error in Petril.
     Disagreement(Disagreement),
 }
 

@@ -1,7 +1,7 @@
-//! A device of the plant that goes somewhere.
+//! Random walk of a plant device towards random goals.
 //!
-//! Moves by chance alone seldom lead far: a tank from which anybody may take water at any time is empty most of the time. So a
-//! walk has a goal, any marking of the device, and goes towards it for a while, as far as the program's outputs let it.
+//! Undirected random moves seldom lead far: a tank that may be drained at any time stays almost empty. So a walk picks
+//! a random marking of the device as its goal and moves towards it for a while, as far as the program's outputs allow.
 
 use super::lots::Lots;
 use crate::scans::ScanState;
@@ -9,21 +9,21 @@ use crate::translate::System;
 use crate::witness::PlantMove;
 use petril_lang::semantics::VarId;
 
-/// How many scans a goal lasts, at most.
+/// Upper bound on the number of scans for which a goal is pursued.
 const LASTS: u32 = 32;
 
-/// Where a device goes.
+/// Random walk of one device.
 #[derive(Clone, Debug, Default)]
 pub struct Walk {
-    /// How many moves each of its markings is away from the goal, whatever the outputs are; `None` if it is not to be reached.
+    /// Distance of each marking from the goal in moves, ignoring outputs; `None` if it cannot reach the goal.
     distances: Vec<Option<u32>>,
-    /// For how many scans.
+    /// Number of scans left for the goal.
     left: u32,
 }
 
 impl Walk {
-    /// What a component does before the scan from a state: before every fourth scan nothing, before another fourth any one thing it
-    /// can, and else all that leads it nearer to its goal.
+    /// Moves of a component before the scan from a state: none with probability 1/4, one random enabled move with 1/4,
+    /// else as many as lead it nearest to its goal.
     pub fn go(&mut self, system: &System, component: usize, from: &ScanState, lots: &mut Lots) -> Vec<PlantMove> {
         let own = &system.plant.components[component];
         let at = from.plant[component];
@@ -55,7 +55,7 @@ impl Walk {
     }
 }
 
-/// How far each marking of a component is from one of them, by its moves.
+/// Distance of each marking of a component from a goal, by its moves.
 fn distances(system: &System, component: usize, goal: usize) -> Vec<Option<u32>> {
     let markings = &system.plant.components[component].markings;
     let mut before = vec![Vec::new(); markings.len()];

@@ -1,19 +1,19 @@
-//! A condition along a run, scan by scan, with what it has to remember.
+//! Evaluation of a condition along a run, scan by scan, with the history it needs.
 
 use petril_lang::semantics::VarId;
 use petril_logic::{Bound, History, Past, Valuation, remembered};
 
-/// Watches a condition that is about the end of a scan and perhaps about scans before.
+/// Monitor of a condition on the end of a scan and possibly on earlier scans.
 #[derive(Clone, Debug)]
 pub struct Watch<'c> {
     condition: &'c Bound,
     history: History,
-    /// What the last scan tells the next one.
+    /// Message from the last scan to the next one (see [`History`]).
     message: Vec<u64>,
 }
 
 impl<'c> Watch<'c> {
-    /// No scan yet; the variables have these values.
+    /// Starts at power-on, with these values.
     #[must_use]
     pub fn new(condition: &'c Bound, power_on: &[u64]) -> Self {
         let history = History::of([condition]);
@@ -23,7 +23,7 @@ impl<'c> Watch<'c> {
         Self { condition, history, message }
     }
 
-    /// A scan has ended with these values. Says whether the condition is true now.
+    /// Evaluates the condition at the end of a scan with these values.
     pub fn see(&mut self, values: &[u64]) -> bool {
         let history = &self.history;
         let mut memory = Vec::with_capacity(history.len());
@@ -38,11 +38,11 @@ impl<'c> Watch<'c> {
     }
 }
 
-/// The end of a scan, or power-on. What is bound for the scan view speaks of nothing else.
+/// Valuation at the end of a scan, or at power-on. Formulas bound for the scan view need nothing else.
 struct Moment<'m> {
     values: &'m [u64],
     history: &'m History,
-    /// What is remembered, or as much of it as is known already.
+    /// Memory of the history, or as much of it as is computed already.
     memory: &'m [u64],
 }
 

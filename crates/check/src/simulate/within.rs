@@ -8,22 +8,22 @@ use petril_lang::flat::{Hazard, Tolerated};
 use petril_lang::semantics::VarId;
 use petril_net::net::TransitionId;
 
-/// A scan that has begun with a firing of the plant or the PLC's cycle.
+/// Scan that has begun with a firing of the plant or the PLC's cycle.
 #[derive(Clone, Debug)]
 pub struct Within<'s> {
     pub replay: Replay<'s>,
-    /// How many transitions have fired, the plant's included.
+    /// Number of transitions fired, the plant's included.
     pub fired: usize,
-    /// What fires before the first line.
+    /// Transitions that fire before the first line.
     prelude: Vec<TransitionRole>,
-    /// The line behind the last.
+    /// Line after the last one.
     end: usize,
     plant: Vec<usize>,
     inputs: Vec<(VarId, u64)>,
 }
 
 impl<'s> Within<'s> {
-    /// The scan from a state. Nothing has fired yet.
+    /// Prepares the scan from a state. Nothing has fired yet.
     pub fn new(system: &'s System, from: &ScanState, plan: &Plan) -> Result<Self, Impossible> {
         let plant = plan::moved(system, from, &plan.moves)?;
         let inputs = plan::inputs(system, from, &plant, plan);
@@ -39,12 +39,12 @@ impl<'s> Within<'s> {
         Ok(Self { replay, fired: 0, prelude, end, plant, inputs })
     }
 
-    /// Fires the next transition; says whether it has ended the scan.
+    /// Fires the next transition; returns whether it has ended the scan.
     pub fn fire(&mut self) -> Result<bool, Disagreement> {
         self.fire_next().map(|(_, ends)| ends)
     }
 
-    /// The transition that fires next.
+    /// Transition that fires next.
     pub fn next(&self) -> Result<TransitionId, Disagreement> {
         self.clone().fire_next().map(|(transition, _)| transition)
     }
@@ -60,7 +60,7 @@ impl<'s> Within<'s> {
         Ok((fired, ends))
     }
 
-    /// Whether a line is to be executed next, none is under way, or all have been.
+    /// Whether control is at a line, the end included.
     pub fn is_at_line(&self) -> bool {
         matches!(self.replay.control(), PlaceRole::Line(_))
     }

@@ -1,17 +1,18 @@
-//! The check that the assumptions leave some inputs, made wherever there are assumptions: what excludes everything proves everything.
+//! Sanity check of the assumptions, made whenever there are any: some inputs satisfy them in every scan. Contradictory
+//! assumptions would prove everything.
 
 use super::failing::what_is_missing;
 use super::views::{ScanView, SystemView};
 use super::{Answer, Note, Outcome, Witness};
 use petril_search::{Graph, Stop};
 
-/// The check with its outcome.
+/// Builds the answer of the check from its outcome.
 pub fn answer(outcome: Outcome) -> Answer {
     let sentence = "Whatever has happened, the assumptions allow some inputs for the next scan.";
     Answer::of_check("assumptions", sentence, "AG EX TRUE", outcome)
 }
 
-/// Looks for a state after which no scan is allowed.
+/// Searches the state graph for a state from which the assumptions allow no scan.
 pub fn outcome(view: &ScanView<'_>) -> Outcome {
     let graph = &view.graph;
     if graph.initial().is_empty() && graph.failures().is_empty() && *graph.stop() == Stop::Complete {
@@ -25,7 +26,7 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
     }
 }
 
-/// The nearest state that has no steps at all.
+/// The nearest dead end: a state without successors whose steps are all known.
 fn dead_end(graph: &Graph) -> Option<u32> {
     let open = graph.open();
     graph.ids().find(|&state| graph.successors(state).is_empty() && !open.contains(state as usize))

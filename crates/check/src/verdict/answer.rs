@@ -1,4 +1,4 @@
-//! What is told of a requirement.
+//! Answers: a requirement, assertion or check with its outcome, and why a run violates it.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,33 +9,33 @@ use petril_logic::{Origin, Requirement, Tag};
 /// A requirement and its outcome.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Answer {
-    /// Its name.
+    /// Name of the requirement, assertion or check.
     pub name: String,
-    /// What it says in the words of its author.
+    /// Sentence given by the author in plain language.
     pub sentence: Option<String>,
-    /// What it says in the words of its pattern, if it is one.
+    /// Reading of the pattern in words, if the formula is a pattern.
     pub words: Option<String>,
-    /// What else its author says of it.
+    /// Further properties given by the author (key and value).
     pub tags: Vec<Tag>,
     /// The formula, or the pattern, as it was written.
     pub formula: String,
-    /// Where it stands; a check that is made without asking stands nowhere.
+    /// Place in the source or requirement file; `None` for a built-in check.
     pub origin: Option<Origin>,
     /// Variables of the program that the formula speaks of.
     #[serde(default)]
     pub variables: Vec<VarId>,
-    /// What is known.
+    /// Verdict with its evidence.
     pub outcome: Outcome,
-    /// If it holds whatever the program does.
+    /// Reason why the requirement holds independently of the program, if so.
     pub independent: Option<Independence>,
-    /// What is doubtful about the requirement itself, whatever the outcome is.
+    /// Warning about the requirement itself, independent of the outcome.
     pub remark: Option<String>,
-    /// Whether this was found by an earlier check.
+    /// Whether the outcome was taken from the cache of an earlier check.
     pub recalled: bool,
 }
 
 impl Answer {
-    /// The answer to a requirement.
+    /// Builds the answer to a requirement, with no remark and no independence yet.
     #[must_use]
     pub fn to(requirement: &Requirement, outcome: Outcome) -> Self {
         Self {
@@ -53,7 +53,7 @@ impl Answer {
         }
     }
 
-    /// The outcome of a check that is made without asking.
+    /// Builds the answer of a built-in check.
     #[must_use]
     pub fn of_check(name: &str, sentence: &str, formula: &str, outcome: Outcome) -> Self {
         Self {
@@ -72,55 +72,55 @@ impl Answer {
     }
 }
 
-/// Why a run breaks a requirement. Scans are positions in the run, from 0.
+/// Diagnosis of a counterexample. Scans are positions in the run, counted from 0.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Why {
-    /// What the requirement wanted where it is broken, and what there was instead, as sentences.
+    /// Sentences: the expected value or behaviour where the requirement is violated, and the actual one.
     pub wanted: Vec<String>,
-    /// For each variable on which the break rests, and which the program computes, who wrote it last.
+    /// Last writer of each computed variable that the violation depends on.
     pub writers: Vec<Writer>,
-    /// Those of these variables that nobody has written by then: they have their initial values.
+    /// Variables the violation depends on that no instruction has written yet: they have their initial values.
     pub unwritten: Vec<VarId>,
-    /// Inputs that matter, if some were found.
+    /// Smallest input changes found that avoid the violation.
     pub repair: Option<Repair>,
-    /// If none were found, the reason.
+    /// Reason why no such change was found.
     pub unrepaired: Option<String>,
 }
 
-/// The instruction that last wrote a variable.
+/// Last write to a variable before the violation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Writer {
-    /// The variable.
+    /// Variable written.
     pub variable: VarId,
-    /// The value it got, as a pattern of its type.
+    /// Value written, as a bit pattern of the variable's type.
     pub value: u64,
-    /// The scan in which it was written.
+    /// Scan of the write, from 0.
     pub scan: usize,
-    /// The line of flat code, from 0.
+    /// Line of flat code, from 0.
     pub line: usize,
 }
 
-/// Inputs that matter: with other values of these, the run, made again, does not break the requirement; with other values of only
-/// some of them it still does, or cannot be made.
+/// Minimal input changes that avoid the violation: the run repeated with these values satisfies the requirement; with
+/// only some of them changed it is still violated, or cannot be repeated.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repair {
-    /// The inputs, in the order of scans.
+    /// Changed inputs, in the order of scans.
     pub changes: Vec<Change>,
-    /// Whether it is known that there is none with fewer inputs.
+    /// Whether no smaller set of changes exists.
     pub is_smallest: bool,
-    /// Others of the same size, some of them: each of these sets would do, too.
+    /// Alternatives of the same size (not necessarily all).
     pub others: Vec<Vec<Change>>,
 }
 
-/// Another value of an input in one scan. Values are patterns of its type.
+/// Change of one input in one scan. Values are bit patterns of its type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
-    /// The scan.
+    /// Scan, from 0.
     pub scan: usize,
-    /// The input.
+    /// Input variable.
     pub input: VarId,
-    /// What it was.
+    /// Value in the original run.
     pub from: u64,
-    /// What it would have to be.
+    /// Value that avoids the violation.
     pub to: u64,
 }

@@ -1,4 +1,4 @@
-//! Assertions in the scan view: every scan is run and looked at where control comes to their lines.
+//! Assertions in the scan view: every scan is executed again and the formula evaluated where control reaches the line.
 
 use super::failing::what_is_missing;
 use super::views::ScanView;
@@ -11,12 +11,12 @@ use petril_lang::semantics::VarId;
 use petril_logic::Bound;
 use petril_search::Stop;
 
-/// The answers to assertions.
+/// Checks all assertions on the explored scans.
 pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopped: &mut dyn FnMut() -> bool) -> Vec<Answer> {
     if assertions.is_empty() {
         return Vec::new();
     }
-    // Each line of each assertion is watched by itself.
+    // Each pair of an assertion and a line is watched separately.
     let watched: Vec<(&Assertion, usize)> =
         assertions.iter().flat_map(|assertion| assertion.lines.iter().map(move |&line| (assertion, line))).collect();
     let lines: Vec<usize> = watched.iter().map(|&(_, line)| line).collect();
@@ -32,7 +32,7 @@ pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopped: &mut dyn 
             });
         };
         let own = |seen: &&Seen| std::ptr::eq(watched[seen.watched].0, assertion);
-        // States are numbered by their distance; power-on comes before them.
+        // States are numbered by distance (breadth-first); the scan from power-on (`None`) comes before them.
         match found.iter().flatten().filter(own).min_by_key(|seen| seen.from) {
             Some(seen) => shown(view, &assertion.formula, watched[seen.watched].1, seen)
                 .unwrap_or_else(|disagreement| super::check::disagreed(&disagreement.to_string())),
@@ -43,7 +43,7 @@ pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopped: &mut dyn 
     assertions.iter().map(|assertion| answer(assertion, outcome(assertion))).collect()
 }
 
-/// An assertion with its outcome.
+/// Builds the answer to an assertion.
 pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
     Answer {
         name: assertion.name.clone(),
@@ -60,7 +60,7 @@ pub fn answer(assertion: &Assertion, outcome: Outcome) -> Answer {
     }
 }
 
-/// The run whose last scan comes to the line while the formula is false, replayed.
+/// Replays the run whose last scan reaches the line with the formula false.
 fn shown(view: &ScanView<'_>, formula: &Bound, line: usize, seen: &Seen) -> Result<Outcome, Disagreement> {
     let (space, graph) = (&view.space, &view.graph);
     let path = seen.from.map(|state| graph.path_to(state)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Under which assumptions the verdicts are proofs, in words.
+//! Assumptions the verdicts rest on, in words.
 
 use super::Options;
 use crate::requirement::Assumption;
@@ -7,7 +7,7 @@ use petril_lang::flat::Hazard;
 use petril_lang::semantics::{Role, VarId};
 use petril_logic::View;
 
-/// The assumptions about a system that is checked in this way.
+/// Lists the assumptions for a system checked with these options; `timed` says that requirements speak of time.
 pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<String> {
     let program = &system.program;
     let names =
@@ -75,7 +75,7 @@ pub fn assumptions(system: &System, options: &Options, timed: bool) -> Vec<Strin
     assumptions
 }
 
-/// What is assumed of numbers that do not fit, and of division by zero.
+/// Assumptions about overflow and division by zero.
 fn arithmetic(system: &System, options: &Options) -> Vec<String> {
     let hazards = system.program.hazards();
     let tolerated = |hazard| match hazard {

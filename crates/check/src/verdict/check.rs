@@ -1,4 +1,4 @@
-//! A system and requirements to a report: one exploration, then every requirement on its graph.
+//! Model checking of a system: one exploration, then every requirement on its state graph.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -29,25 +29,25 @@ use petril_logic::{
 use petril_net::Markings;
 use petril_search::{Budget, Graph, Progress, explore, watched};
 
-/// How to check.
+/// Options of a check.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What a state is.
+    /// State space: one state per scan, or one per marking.
     pub view: View,
-    /// Which runs count: those that meet all of these, which must have been bound for the system and the view.
+    /// Fairness assumptions, bound for the system and the view; only runs that meet all of them count.
     pub fairness: Vec<FairnessAssumption>,
-    /// How far the exploration may go.
+    /// Limits of the exploration.
     pub budget: Budget,
-    /// The hazards that are no errors. In the scan view nothing is known after the others.
+    /// Hazards that are not errors. In the scan view, other hazards end the run.
     pub tolerated: Tolerated,
-    /// What is assumed of the inputs of each scan, in the scan view.
+    /// Assumptions about the inputs of each scan (scan view only).
     pub assumptions: Vec<Assumption>,
-    /// What is asserted at lines of the program.
+    /// Assertions at lines of the program.
     pub assertions: Vec<Assertion>,
 }
 
 impl Default for Options {
-    /// The scan view, no hazard tolerated, nothing assumed, and all runs.
+    /// Scan view, no hazard tolerated, no assumptions, no fairness.
     fn default() -> Self {
         let (budget, tolerated) = (Budget::default(), Tolerated::default());
         let (assumptions, assertions, fairness) = (Vec::new(), Vec::new(), Vec::new());
@@ -55,8 +55,8 @@ impl Default for Options {
     }
 }
 
-/// Explores a system and judges the requirements, which must have been bound for the view. `watch` can end the exploration;
-/// what can be decided on a part of the states is decided then.
+/// Explores a system and decides the requirements, which must have been bound for the view. `watch` can end the
+/// exploration; whatever the explored part decides is then decided.
 #[must_use]
 pub fn check(
     system: &System,
@@ -67,7 +67,7 @@ pub fn check(
     check_aloud(system, requirements, options, watch, None)
 }
 
-/// As [`check()`]; `tell` hears of what was explored and of each answer as soon as all before it are known.
+/// As [`check()`]; `tell` receives the exploration, and each answer as soon as all before it are known.
 #[must_use]
 pub fn check_aloud(
     system: &System,
@@ -114,7 +114,7 @@ fn check_scans(
     }
 }
 
-/// Every formula that is asked about.
+/// Formulas of all requirements and assertions.
 pub(super) fn asked<'r>(
     requirements: &'r [(Requirement, Demand)],
     options: &'r Options,
@@ -123,18 +123,18 @@ pub(super) fn asked<'r>(
     required.chain(options.assertions.iter().map(|assertion| &assertion.formula))
 }
 
-/// A graph, if every reachable state and step is in it.
+/// The graph, if it is complete and not empty.
 fn whole(graph: &Graph) -> Option<&Graph> {
     (graph.is_complete() && !graph.is_empty()).then_some(graph)
 }
 
-/// The figures of a search that is over.
+/// Progress figures of a finished search.
 fn done(graph: &Graph) -> Progress {
     let states = graph.len() as u64;
     Progress { states, expanded: states, depth: graph.depth(), bytes: graph.bytes() }
 }
 
-/// The answers to requirements with these outcomes.
+/// Combines requirements with their outcomes.
 pub(super) fn answers(
     system: &System,
     requirements: &[(Requirement, Demand)],
@@ -144,7 +144,7 @@ pub(super) fn answers(
     requirements.iter().zip(outcomes).map(|(asked, outcome)| answer(system, asked, options, outcome)).collect()
 }
 
-/// The answer to a requirement with this outcome.
+/// Combines a requirement with its outcome: adds independence and remark.
 pub(super) fn answer(
     system: &System,
     (requirement, demand): &(Requirement, Demand),
@@ -153,7 +153,7 @@ pub(super) fn answer(
 ) -> Answer {
     let formula = demand.formula().filter(|_| outcome.verdict() == Verdict::Holds);
     let independent = formula.and_then(|formula| independence(formula, system, &options.assumptions));
-    // Which runs count may depend on the program.
+    // Which runs are fair may depend on the program, so only tautologies are independent then.
     let certain = |it: &Independence| options.fairness.is_empty() || *it == Independence::OfEverything;
     let variables = demand.formula().map(|formula| formula.mentions().variables).unwrap_or_default();
     let variables = variables.into_iter().collect();
@@ -161,8 +161,8 @@ pub(super) fn answer(
     Answer { independent: independent.filter(certain), variables, remark, ..Answer::to(requirement, outcome) }
 }
 
-/// The outcomes of requirements on scans, and what no run goes through that counts, in words. Requirements that know the same of the
-/// past are judged together, on one graph.
+/// Outcomes of requirements on scans, and in words the states left out by fairness. Requirements with the same history
+/// (past-time terms) are decided together, on one product graph.
 fn outcomes(
     view: &ScanView<'_>,
     requirements: &[(Requirement, Demand)],
@@ -195,7 +195,7 @@ fn outcomes(
         };
         let fair = Fair::on(view_of, &options.fairness);
         left_out = left_out.or_else(|| fair.as_ref().and_then(Fair::left_out));
-        // What no run goes through is told above the answers.
+        // States left out by fairness are reported above the answers.
         if fair.is_none() || left_out.is_some() || rest == 0 {
             told.begin(|| report(view.system(), requirements, options, &view.graph, left_out.clone()));
         }
@@ -220,17 +220,17 @@ fn outcomes(
     (outcomes, left_out)
 }
 
-/// An outcome that nobody waits for any more. Its reason is added where it is known.
+/// Outcome of an interrupted question. The reason is added by [`explained`].
 pub(super) const STOPPED: Outcome = Outcome::Unknown(String::new());
 
-/// Tells an answer that is final. One that was stopped gets its reason later.
+/// Reports a final answer. An interrupted one gets its reason later.
 fn tell(told: &InOrder<'_>, position: usize, outcome: &Outcome, answer: impl FnOnce() -> Answer) {
     if !matches!(outcome, Outcome::Unknown(reason) if reason.is_empty()) {
         told.put(position, answer);
     }
 }
 
-/// Outcomes with the reason why those were stopped that have none.
+/// Fills in the reason of interrupted outcomes.
 fn explained(judged: Option<Vec<Outcome>>, reason: Option<String>, count: usize) -> Vec<Outcome> {
     let judged = judged.unwrap_or_else(|| vec![STOPPED; count]);
     let reason = format!("{} while requirements were checked", reason.unwrap_or_else(|| "it was stopped".to_owned()));
@@ -254,7 +254,7 @@ fn check_markings(
     let fair = Fair::on(&view, &options.fairness);
     let left_out = fair.as_ref().and_then(Fair::left_out);
     told.begin(|| report(system, requirements, options, graph, left_out.clone()));
-    // What must be so whenever control comes somewhere, and the checks, are about all runs.
+    // Assertions and built-in checks range over all runs, fair or not.
     let hazards: Vec<_> = hazards::checked(&system.program, options.tolerated).collect();
     let mut unfair: Vec<Bound> = options.assertions.iter().map(|assertion| assertion.as_formula(system)).collect();
     unfair.push(scan_ends::formula(system));
@@ -287,7 +287,7 @@ fn check_markings(
     Report { answers, checks, ..report(system, requirements, options, graph, left_out) }
 }
 
-/// A report without answers.
+/// Builds a report without answers.
 fn report(
     system: &System,
     requirements: &[(Requirement, Demand)],
@@ -295,7 +295,7 @@ fn report(
     graph: &Graph,
     left_out: Option<String>,
 ) -> Report {
-    // The first scan is a step too in the scan view, not in the transition view.
+    // Depth counts steps; in the scan view the first scan is a step, too.
     let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
     let timed = requirements.iter().any(|(requirement, _)| requirement.speaks_of_time())
         || options.fairness.iter().any(|assumed| assumed.speaks_of_time);
@@ -319,16 +319,16 @@ fn report(
     }
 }
 
-/// Judges formulas on a graph.
+/// Decides formulas on a state graph.
 #[derive(Clone, Copy)]
 pub(super) struct Judge<'a> {
     pub view: &'a dyn SystemView,
     pub graph: &'a Graph,
-    /// The runs that count, if not all do.
+    /// Fairness assumptions, if any.
     pub fair: Option<&'a Fair<'a>>,
-    /// What following a formula along the paths may use.
+    /// Limits for the product with an LTL automaton.
     pub budget: Budget,
-    /// Whether nobody waits for outcomes any more.
+    /// Whether the search is to stop.
     pub stopping: &'a AtomicBool,
 }
 
@@ -369,7 +369,7 @@ impl Judge<'_> {
         }
     }
 
-    /// The states that satisfy a formula, and its negation; nothing if nobody waits for them.
+    /// Labels the states with the formula and its negation; `None` if interrupted.
     pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Option<Labelled<'f>> {
         let mut dag = Dag::default();
         let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
@@ -378,7 +378,7 @@ impl Judge<'_> {
         Some(Labelled { formula, dag, yes, no, labels })
     }
 
-    /// A run from an initial state in which a node holds, and a run that counts begins, if there is one.
+    /// Evidence: a fair run from an initial state that satisfies the node, replayed, if there is one.
     pub(super) fn shown(
         &self,
         Labelled { dag, labels, .. }: &Labelled<'_>,
@@ -391,7 +391,7 @@ impl Judge<'_> {
         Some(witness(view, dag, &evidence, assumed, &|_, _| ()).map(|witness| (witness, evidence)))
     }
 
-    /// That the formula is false in an initial state, if that is known.
+    /// The violation, if a known initial state violates the formula.
     pub(super) fn broken(&self, labelled: &Labelled<'_>) -> Option<Outcome> {
         let Self { view, graph, .. } = *self;
         Some(match self.shown(labelled, labelled.no)? {
@@ -405,7 +405,7 @@ impl Judge<'_> {
         })
     }
 
-    /// That a formula holds, and whether its premises occur.
+    /// The outcome "holds", with vacuity check and example.
     pub(super) fn holds(&self, formula: &Bound, witness: Option<Witness>) -> Outcome {
         if self.is_stopped() {
             return STOPPED;
@@ -421,14 +421,14 @@ impl Judge<'_> {
         }
     }
 
-    /// Whether a run that counts surely begins in a state.
+    /// Whether a fair run surely begins in a state.
     pub(super) fn counts(&self, state: u32) -> bool {
         self.fair.is_none_or(|fair| fair.paths.surely().contains(state as usize))
     }
 
-    /// Why a requirement that no known run breaks cannot be said to hold, if so; `is_true` says that it is true of all initial states
-    /// that are known. It holds only if each initial state is known, and a run that counts surely begins there: what holds only
-    /// because no run counts is no answer.
+    /// Reason why a requirement without a known counterexample cannot be said to hold, if so; `is_true` says that all
+    /// known initial states satisfy it. A requirement holds only if every initial state is known and a fair run surely
+    /// begins there: truth for lack of fair runs is not an answer.
     pub(super) fn undecided(&self, is_true: bool) -> Option<String> {
         let Self { graph, fair, .. } = *self;
         if let Some(vain) = fair.and_then(|fair| fair.vain.as_ref()) {
@@ -438,7 +438,7 @@ impl Judge<'_> {
         (!(is_true && begins)).then(|| what_is_missing(graph))
     }
 
-    /// Whether a formula holds in no state of a run that counts.
+    /// Whether no state of a fair run satisfies a formula.
     pub(super) fn holds_nowhere(&self, formula: &Bound) -> bool {
         let mut dag = Dag::default();
         let node = dag.add(formula, false);
@@ -449,7 +449,7 @@ impl Judge<'_> {
     }
 }
 
-/// A formula, its negation, and the states that satisfy each of their parts.
+/// A formula and its negation with the states that satisfy each subformula.
 pub(super) struct Labelled<'f> {
     pub formula: &'f Bound,
     pub dag: Dag,
@@ -458,7 +458,7 @@ pub(super) struct Labelled<'f> {
     pub labels: Labels,
 }
 
-/// The answer where the replay shows another thing than the search.
+/// Outcome where replay and search disagree (an error in Petril).
 pub fn disagreed(what: &str) -> Outcome {
     Outcome::Unknown(format!("the replay refutes the search, which is an error in Petril; please report it: {what}"))
 }

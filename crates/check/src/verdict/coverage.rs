@@ -1,4 +1,4 @@
-//! What of a program was modelled, executed, and asked about.
+//! Coverage: lines modelled and executed, variables read, written and mentioned.
 
 use std::collections::BTreeSet;
 
@@ -7,22 +7,22 @@ use petril_lang::flat::{FlatProgram, Target};
 use petril_lang::semantics::{Role, VarId};
 use petril_logic::Bound;
 
-/// What of a program was modelled, executed, and asked about. All lines are modelled: what cannot be is an error before.
+/// Coverage of a program. All lines are modelled: a program with others is rejected before.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Coverage {
-    /// How many lines of flat code there are.
+    /// Number of lines of flat code.
     pub lines: usize,
-    /// Those that no reachable scan executes, from 0, in their order; `None` if that is not known.
+    /// Lines that no reachable scan executes, from 0, ascending; `None` if not known.
     pub never_executed: Option<Vec<usize>>,
     /// Inputs that no instruction reads.
     pub never_read: Vec<VarId>,
     /// Outputs that no instruction writes.
     pub never_written: Vec<VarId>,
-    /// Outputs that no requirement speaks of. (One may still rest on them.)
+    /// Outputs that no requirement mentions. (A requirement may still depend on them.)
     pub unasked: Vec<VarId>,
 }
 
-/// The coverage of a system by requirements.
+/// Computes the coverage of a system by requirements.
 pub fn coverage<'f>(
     system: &System,
     formulas: impl Iterator<Item = &'f Bound>,
@@ -41,7 +41,7 @@ pub fn coverage<'f>(
     }
 }
 
-/// The variables that some instruction reads.
+/// Variables that some instruction reads.
 pub fn read(program: &FlatProgram) -> BTreeSet<VarId> {
     let chosen = program.code.iter().filter_map(|code| code.instruction.writes());
     let indices = chosen.filter_map(|target| match target {
@@ -56,7 +56,7 @@ pub fn read(program: &FlatProgram) -> BTreeSet<VarId> {
     read.chain(indices).collect()
 }
 
-/// The variables that some instruction writes.
+/// Variables that some instruction writes.
 fn written(program: &FlatProgram) -> BTreeSet<VarId> {
     let written = program.code.iter().filter_map(|code| code.instruction.writes());
     let all = written.flat_map(|target| match target {

@@ -1,4 +1,4 @@
-//! The requirement that some scan comes to every line.
+//! The requirement `every line`: each line of the program is executed in some scan.
 
 use super::failing::what_is_missing;
 use super::remarks::dead_pieces;
@@ -6,7 +6,7 @@ use super::views::{ScanView, SystemView};
 use super::{Note, Outcome, Witness};
 use crate::scans::never_executed;
 
-/// Looks for lines that no scan executes.
+/// Looks for dead code: lines that no scan executes.
 pub fn outcome(view: &ScanView<'_>) -> Outcome {
     let graph = &view.graph;
     let Some(&first) = graph.initial().first().filter(|_| graph.is_complete()) else {
@@ -17,7 +17,7 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
     if never.is_empty() {
         return Outcome::holds();
     }
-    // No run shows what no run does; the shortest one is as good as any.
+    // Dead code has no run of its own, so the shortest run stands in.
     match view.replayed(&[graph.state(first)], None, &|_, _| Ok(())) {
         Ok(trace) => {
             let program = &view.system().program;

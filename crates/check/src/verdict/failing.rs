@@ -1,4 +1,4 @@
-//! Scans that lead to no state: a run to one of them, and what the others leave unknown.
+//! Failing scans: a run to one of them, and the reason why unexplored steps leave a verdict open.
 
 use super::{Note, Trace, Witness};
 use crate::scans::{Failure, ScanSpace};
@@ -7,17 +7,17 @@ use petril_lang::flat::Hazard;
 use petril_lang::interpret::Fault;
 use petril_search::{Graph, Stop};
 
-/// What was found of scans that fail in some way.
+/// Result of a search for scans that fail in some way.
 pub enum Failing {
-    /// There is none among the scans explored.
+    /// No explored scan fails so.
     None,
-    /// A shortest run to one.
+    /// Shortest run to such a scan, replayed.
     Shown(Witness),
-    /// The replay shows another thing than the search.
+    /// Replay and search disagree.
     Refuted(Disagreement),
 }
 
-/// A shortest run whose last scan fails in a way of this kind.
+/// Finds the shortest run whose last scan fails in this way.
 pub fn failing_scan(space: &ScanSpace<'_>, graph: &Graph, kind: impl Fn(&Failure) -> bool) -> Failing {
     let mut failures = graph.failures().iter().filter_map(|&(state, dead_end)| Some((state, Failure::of(dead_end)?)));
     let Some((state, failure)) = failures.find(|(_, failure)| kind(failure)) else {
@@ -45,7 +45,7 @@ pub fn failing_scan(space: &ScanSpace<'_>, graph: &Graph, kind: impl Fn(&Failure
     }
 }
 
-/// A hazard as something that happened in a scan.
+/// Description of a hazard as an event.
 fn event(hazard: Hazard) -> &'static str {
     match hazard {
         Hazard::Overflow => "a number did not fit its type",
@@ -55,7 +55,7 @@ fn event(hazard: Hazard) -> &'static str {
     }
 }
 
-/// Why not everything is known: the search was ended, or scans lead nowhere.
+/// Reason for an incomplete answer: the search was ended, or scans have no end state.
 pub fn what_is_missing(graph: &Graph) -> String {
     match graph.failures().first().map(|&(_, dead_end)| Failure::of(dead_end)) {
         None if graph.is_complete() && graph.is_empty() => {

@@ -1,4 +1,4 @@
-//! The runs that count in a check.
+//! Fairness assumptions on a state graph: which runs count.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,16 +8,16 @@ use petril_search::Graph;
 
 /// Fairness assumptions on the graph of a view.
 pub struct Fair<'a> {
-    /// The paths that count.
+    /// Fair paths.
     pub paths: Fairness,
-    /// The assumptions.
+    /// Assumptions the paths have to meet.
     pub assumptions: &'a [FairnessAssumption],
-    /// Why no run counts from some initial state, if so.
+    /// Reason why some initial state has no fair run, if so.
     pub vain: Option<String>,
 }
 
 impl<'a> Fair<'a> {
-    /// Nothing if nothing is assumed, so that all runs count.
+    /// Evaluates the assumptions on the graph of a view; `None` if there are none.
     pub fn on(view: &dyn SystemView, assumptions: &'a [FairnessAssumption]) -> Option<Self> {
         let constraints: Vec<&Constraint> = assumptions.iter().flat_map(|assumed| &assumed.constraints).collect();
         if constraints.is_empty() {
@@ -29,7 +29,7 @@ impl<'a> Fair<'a> {
         Some(Self { paths, assumptions, vain })
     }
 
-    /// How many states no run that counts goes through, if there are any, in words.
+    /// Number of states on no fair run, in words, if not 0.
     pub fn left_out(&self) -> Option<String> {
         let (states, left) = (self.paths.possibly().len(), self.paths.possibly().zeroes().count());
         (left > 0).then(|| {
@@ -38,7 +38,7 @@ impl<'a> Fair<'a> {
     }
 }
 
-/// The states of a view in which a formula about one state holds.
+/// States of a view that satisfy a state formula.
 pub fn states_where(view: &dyn SystemView, formula: &Bound) -> FixedBitSet {
     let graph = view.graph();
     let mut dag = Dag::default();
@@ -59,12 +59,12 @@ fn paths(view: &dyn SystemView, constraints: &[&Constraint]) -> Fairness {
     Fairness::on(view.graph(), Constraints { weak, strong })
 }
 
-/// Whether a run may count from each initial state.
+/// Whether a fair run possibly begins in each initial state.
 fn from_all(graph: &Graph, paths: &Fairness) -> bool {
     graph.initial().iter().all(|&state| paths.possibly().contains(state as usize))
 }
 
-/// What keeps runs from an initial state from counting.
+/// Names the assumption that leaves an initial state without fair runs.
 fn vain(view: &dyn SystemView, assumptions: &[FairnessAssumption], paths: &Fairness) -> String {
     let graph = view.graph();
     let none = graph.initial().iter().all(|&state| !paths.possibly().contains(state as usize));

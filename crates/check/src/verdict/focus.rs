@@ -1,4 +1,4 @@
-//! The parts of a run that matter to its requirement.
+//! The parts of a run that matter to its requirement: variables and scans to show.
 
 use std::collections::BTreeSet;
 
@@ -7,17 +7,17 @@ use crate::translate::System;
 use crate::witness::{Columns, Piece, fold};
 use petril_lang::semantics::VarId;
 
-/// The parts of a run that matter to its requirement, so that a form of the report may leave out others.
+/// The parts of a run that matter to its requirement; reports may hide the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
-    /// Variables that the requirement speaks of, or on which the break rests.
+    /// Variables that the requirement mentions, or on which the violation depends.
     pub variables: BTreeSet<VarId>,
-    /// Scans (from 0) of which something is said: where the requirement is broken, where a value was written, where an input matters.
+    /// Scans (from 0) to show: of the violation, of a last write, of an input that matters.
     pub scans: BTreeSet<usize>,
 }
 
 impl Focus {
-    /// What matters in a run that goes with an answer.
+    /// Collects what matters in a run of an answer.
     #[must_use]
     pub fn of(answer: &Answer, witness: &Witness) -> Self {
         let mut variables: BTreeSet<VarId> = answer.variables.iter().copied().collect();
@@ -34,13 +34,13 @@ impl Focus {
         Self { variables, scans }
     }
 
-    /// The columns of a table of the run, if nothing else is asked for.
+    /// Default columns of a table of the run.
     #[must_use]
     pub fn columns(&self, system: &System) -> Columns {
         Columns::declared(&system.program, &self.variables)
     }
 
-    /// The pieces of a run of which these columns are shown; none of a run of firings.
+    /// Splits a run into shown scans and folded stretches, for the given columns; empty for a run of firings.
     #[must_use]
     pub fn pieces(&self, system: &System, trace: &Trace, columns: &Columns) -> Vec<Piece> {
         match trace {

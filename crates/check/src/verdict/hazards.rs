@@ -1,5 +1,5 @@
-//! The checks that nothing goes wrong in a computation, made without asking: one for each kind of hazard the program's
-//! instructions can meet, unless it is tolerated.
+//! Built-in checks for run-time errors: one for each kind of hazard that the program's instructions can meet, unless it
+//! is tolerated.
 
 use super::failing::{Failing, failing_scan};
 use super::why::of_error;
@@ -10,12 +10,12 @@ use petril_lang::flat::{FlatProgram, Hazard, Tolerated};
 use petril_logic::{Bound, Quantifier};
 use petril_search::Graph;
 
-/// The checks that are made of a program.
+/// Hazards to check in a program.
 pub fn checked(program: &FlatProgram, tolerated: Tolerated) -> impl Iterator<Item = Hazard> {
     program.hazards().into_iter().filter(move |&hazard| !tolerated.allows(hazard))
 }
 
-/// A check with its outcome.
+/// Builds the answer of a check from its outcome.
 pub fn answer(hazard: Hazard, outcome: Outcome) -> Answer {
     let (sentence, formula) = match hazard {
         Hazard::Overflow => ("No number is too large or too small for its type.", "AG !overflow"),
@@ -26,7 +26,8 @@ pub fn answer(hazard: Hazard, outcome: Outcome) -> Answer {
     Answer::of_check(&hazard.to_string(), sentence, formula, outcome)
 }
 
-/// A check in the transition view: control never comes to a place of the hazard. There, the program goes on behind it.
+/// The check in the transition view: control never reaches a place of the hazard. In this view the program continues
+/// after a hazard.
 pub fn formula(system: &System, hazard: Hazard) -> Bound {
     let places = (0..system.program.end()).filter_map(|line| system.find(PlaceRole::Hazard(line, hazard)));
     let met = places.map(Bound::Marked).reduce(|f, g| Bound::Or(Box::new(f), Box::new(g)));
@@ -38,7 +39,7 @@ pub fn formula(system: &System, hazard: Hazard) -> Bound {
     }
 }
 
-/// A check in the scan view: the search has met every scan there is before the first error.
+/// The check in the scan view: every scan up to the first error has been explored.
 pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph, hazard: Hazard) -> Outcome {
     let met = |failure: &Failure| matches!(failure, Failure::Hazard(_, met) if *met == hazard);
     match failing_scan(space, graph, met) {

@@ -1,4 +1,4 @@
-//! Requirements that hold whatever the program does.
+//! Requirements that hold whatever the program does, such as tautologies.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -8,25 +8,25 @@ use crate::translate::System;
 use petril_lang::semantics::Role;
 use petril_logic::Bound;
 
-/// On what a requirement that holds does not depend.
+/// Reason why a requirement holds independently of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Independence {
-    /// It is true of every system, as `a | !a` is.
+    /// Tautology: true of every system, as `a | !a` is.
     OfEverything,
-    /// It speaks of inputs alone, and these do not depend on what the program puts out: it tests the plant.
+    /// Property of the plant alone: only inputs are mentioned, and they do not depend on the program's outputs.
     OfTheProgram,
 }
 
-/// Parts whose values are all tried.
+/// Upper bound on the number of propositional parts whose valuations are all tried.
 const MOST: usize = 12;
 
-/// What a requirement that holds does not depend on, as far as the formula tells.
+/// Independence of a requirement that holds, judged from its formula.
 pub fn independence(formula: &Bound, system: &System, assumptions: &[Assumption]) -> Option<Independence> {
     if is_always_true(formula) {
         return Some(Independence::OfEverything);
     }
     let variables = formula.mentions().variables;
-    // What is assumed of inputs may depend on outputs, too.
+    // An assumption about inputs may mention outputs, too.
     let assumed = assumptions.iter().flat_map(|assumption| assumption.formula.mentions().variables);
     let alone = variables.iter().copied().chain(assumed).all(|variable| {
         let devices = system.plant.driver(variable).map(|device| &system.plant.components[device]);
@@ -36,7 +36,7 @@ pub fn independence(formula: &Bound, system: &System, assumptions: &[Assumption]
     (alone && !variables.is_empty()).then_some(Independence::OfTheProgram)
 }
 
-/// Whether a formula is true whatever its parts are. Paths end only in states without steps, of which a system has none.
+/// Whether a formula is a tautology, by its structure. Every state of a system has a step, so no path ends.
 fn is_always_true(formula: &Bound) -> bool {
     match formula {
         Bound::Next(_, f) => is_always_true(f),
@@ -53,7 +53,7 @@ fn is_always_true(formula: &Bound) -> bool {
     }
 }
 
-/// Numbers the parts that have no Boolean operator outside.
+/// Numbers the maximal subformulas without an outer Boolean operator.
 fn collect(formula: &Bound, parts: &mut BTreeMap<String, usize>) {
     match formula {
         Bound::Truth(_) => {}
@@ -69,7 +69,7 @@ fn collect(formula: &Bound, parts: &mut BTreeMap<String, usize>) {
     }
 }
 
-/// The value of a formula whose parts have these values.
+/// Value of a formula under a valuation of its parts.
 fn value(formula: &Bound, parts: &BTreeMap<String, usize>, values: u32) -> bool {
     let of = |f: &Bound| value(f, parts, values);
     match formula {

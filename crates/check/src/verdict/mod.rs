@@ -39,30 +39,31 @@ use crate::witness::{FiringTrace, ScanTrace};
 use petril_logic::View;
 use petril_search::Stop;
 
-/// What is known about a requirement.
+/// Result of checking a requirement.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It holds.
+    /// The requirement holds.
     Holds {
-        /// The premise that never occurs, so that the requirement says nothing.
+        /// Premise that never occurs: the requirement holds vacuously.
         vacuous: Option<Vacuity>,
-        /// For a requirement that something is possible, a way there.
+        /// For an existential requirement, a run that shows it.
         witness: Option<Witness>,
-        /// In the scan view, a run in which its premise occurs.
+        /// In the scan view, a run in which the premise occurs.
         example: Option<Witness>,
     },
-    /// It does not hold, as a run shows; in the scan view also why.
+    /// The requirement is violated, with a counterexample and, in the scan view, a diagnosis.
     Violated(Witness, Option<Why>),
-    /// Nothing is known, for this reason.
+    /// Undecided, with the reason.
     Unknown(String),
 }
 
-/// A premise that never occurs, as text.
+/// Vacuity: a premise that never occurs, as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Vacuity {
-    /// It is true in no reachable state.
+    /// The premise is true in no reachable state.
     Nowhere(String),
-    /// It is true in some states, but never where the requirement asks for it: `b` in `AG (a -> AX (b -> c))` after `a`.
+    /// The premise is true in some states, but never where the requirement uses it: `b` in `AG (a -> AX (b -> c))`
+    /// after `a`.
     NotThere(String),
 }
 
@@ -74,7 +75,7 @@ impl Vacuity {
         premise
     }
 
-    /// What is so, in words.
+    /// The finding as a sentence.
     #[must_use]
     pub fn sentence(&self) -> String {
         match self {
@@ -84,14 +85,14 @@ impl Vacuity {
     }
 }
 
-/// The three verdicts.
+/// Verdict: one of three, ordered from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// It holds.
+    /// Proved.
     Holds,
-    /// Nothing is known.
+    /// Undecided.
     Unknown,
-    /// It does not hold.
+    /// Refuted.
     Violated,
 }
 
@@ -108,13 +109,13 @@ impl Verdict {
 }
 
 impl Outcome {
-    /// It holds, and there is nothing to show.
+    /// "Holds" without evidence.
     #[must_use]
     pub fn holds() -> Self {
         Self::Holds { vacuous: None, witness: None, example: None }
     }
 
-    /// The verdict without its reasons.
+    /// Verdict without evidence.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self {
@@ -124,7 +125,7 @@ impl Outcome {
         }
     }
 
-    /// The run that goes with the verdict.
+    /// Counterexample, or run that shows an existential requirement.
     #[must_use]
     pub fn witness(&self) -> Option<&Witness> {
         match self {
@@ -135,12 +136,12 @@ impl Outcome {
     }
 }
 
-/// A run that shows why, replayed on the net and in the interpreter.
+/// Witness: a run as evidence, replayed on the net and in the interpreter.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Witness {
     /// The run.
     pub trace: Trace,
-    /// What it shows, where.
+    /// Facts shown by the run, with their positions.
     pub notes: Vec<Note>,
 }
 
@@ -153,14 +154,14 @@ pub enum Trace {
     Firings(FiringTrace),
 }
 
-/// Something that is so during a part of a run.
+/// Fact that is true on a part of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
-    /// First state of the run concerned, from 0.
+    /// First state of that part, from 0.
     pub first: usize,
-    /// Last state of the run concerned, from 0.
+    /// Last state of that part, from 0.
     pub last: usize,
-    /// What is so.
+    /// Fact as text.
     pub text: String,
 }
 
@@ -168,7 +169,7 @@ impl Note {
     /// The note as a sentence: "after scan 2: …".
     #[must_use]
     pub fn sentence(&self, view: View) -> String {
-        // States of the scan view are the ends of scans; the first marking is there before any firing.
+        // States of the scan view are ends of scans; the initial marking precedes every firing.
         let (unit, first, last) = match view {
             View::Scan => ("scan", self.first + 1, self.last + 1),
             View::Transition => ("firing", self.first, self.last),
@@ -181,49 +182,49 @@ impl Note {
     }
 }
 
-/// What was explored.
+/// Figures of an exploration.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Exploration {
-    /// What a state is.
+    /// State space: one state per scan, or one per marking.
     pub view: View,
-    /// States found.
+    /// Number of states.
     pub states: usize,
-    /// Steps found, counted for each state.
+    /// Number of steps (edges), counted for each state.
     pub steps: u64,
-    /// The largest of the shortest distances: in the scan view in scans from power-on, in the transition view in firings
-    /// from the initial marking.
+    /// Depth: largest distance of a state, in scans from power-on (scan view) or in firings from the initial marking
+    /// (transition view).
     pub depth: usize,
     /// Whether all reachable states and steps were found.
     pub complete: bool,
-    /// Why the search ended.
+    /// Reason why the search ended.
     pub stop: Stop,
-    /// Bytes the graph takes.
+    /// Size of the graph in bytes.
     pub bytes: u64,
-    /// Whether this was found by an earlier check.
+    /// Whether the figures were taken from the cache of an earlier check.
     pub recalled: bool,
 }
 
 /// The result of a check.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// What was explored.
+    /// Figures of the exploration.
     pub exploration: Exploration,
-    /// Under which assumptions the verdicts are proofs.
+    /// Assumptions that the verdicts rest on.
     pub assumptions: Vec<String>,
-    /// What was said of the program, its plants and its requirements before the check, and is no error: code, place and message.
+    /// Warnings about the program, its plants and its requirements from before the check: code, place and message.
     pub warnings: Vec<String>,
-    /// The requirements in the order they were given.
+    /// Answers to the requirements, in the given order.
     pub answers: Vec<Answer>,
-    /// What is checked without asking.
+    /// Answers of the built-in checks.
     pub checks: Vec<Answer>,
-    /// In the scan view, what else is worth knowing.
+    /// Further findings (scan view only).
     pub remarks: Vec<Remark>,
-    /// In the scan view, what of the program was modelled, executed, and asked about.
+    /// Coverage of the program (scan view only).
     pub coverage: Option<Coverage>,
 }
 
 impl Report {
-    /// The verdict on everything: violated if one answer is, else unknown if one is, else holds.
+    /// Overall verdict: violated if one answer is, else unknown if one is, else holds.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let answers = self.answers.iter().chain(&self.checks);

@@ -1,23 +1,24 @@
-//! What is told while a check goes on: each answer as soon as it and all those before it are known.
+//! Progressive results of a check: each answer as soon as it and all before it are known.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use super::{Answer, Report};
 
-/// Something that is known and final.
+/// Event of a running check; each is final.
 #[derive(Clone, Copy, Debug)]
 pub enum News<'a> {
-    /// What was explored, and under which assumptions: the report, still without answers.
+    /// Exploration finished: figures and assumptions, as a report without answers.
     Explored(&'a Report),
-    /// The answer to the requirement at this position. They come in the order of the requirements, after what was explored.
+    /// Answer to the requirement at this position. Answers come in the order of the requirements, after
+    /// [`News::Explored`].
     Answered(usize, &'a Answer),
 }
 
-/// Whoever listens. Answers come from several threads, one at a time.
+/// Listener. Calls come from several threads, one at a time.
 pub type Tell<'a> = &'a (dyn Fn(News<'_>) + Sync);
 
-/// Keeps answers back until all those before them are told.
+/// Holds answers back until all before them have been reported.
 pub struct InOrder<'a> {
     tell: Option<Tell<'a>>,
     waiting: Mutex<Waiting>,
@@ -26,18 +27,18 @@ pub struct InOrder<'a> {
 #[derive(Default)]
 struct Waiting {
     has_begun: bool,
-    /// The next position to be told.
+    /// Next position to report.
     next: usize,
     answers: BTreeMap<usize, Answer>,
 }
 
 impl<'a> InOrder<'a> {
-    /// Nothing is known yet.
+    /// Starts with nothing reported.
     pub fn new(tell: Option<Tell<'a>>) -> Self {
         Self { tell, waiting: Mutex::default() }
     }
 
-    /// The report without answers is known.
+    /// Reports the exploration, once, and the answers that waited for it.
     pub fn begin(&self, report: impl FnOnce() -> Report) {
         let Some(tell) = self.tell else { return };
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
@@ -48,7 +49,7 @@ impl<'a> InOrder<'a> {
         }
     }
 
-    /// The answer at a position is known.
+    /// Reports the answer at a position, or holds it back.
     pub fn put(&self, position: usize, answer: impl FnOnce() -> Answer) {
         let Some(tell) = self.tell else { return };
         let answer = answer();

@@ -1,4 +1,4 @@
-//! Judgements on formulas of LTL.
+//! Verdicts on LTL formulas.
 
 use std::cell::RefCell;
 
@@ -10,7 +10,7 @@ use crate::witness::Holds;
 use petril_logic::{Bound, Claim, Constraints, Counterexample, Dag, Evidence, Path, Search, search};
 
 impl Judge<'_> {
-    /// Whether a formula of LTL holds on all paths.
+    /// Decides whether an LTL formula holds on all paths.
     pub(super) fn outcome_on_paths(&self, path: &Path<Bound>) -> Outcome {
         let Self { view, graph, fair, budget, .. } = *self;
         let none = Constraints::default();
@@ -34,7 +34,7 @@ impl Judge<'_> {
         Outcome::Holds { vacuous, witness: None, example: None }
     }
 
-    /// The replay of a path on which a formula of LTL is false. It is read once more on what the replay shows of its atoms.
+    /// Replays a counterexample. The formula is evaluated once more on the atoms that the replay shows.
     fn violated(&self, path: &Path<Bound>, found: Counterexample) -> Outcome {
         let mut dag = Dag::default();
         let claims = found.atoms.iter().map(|(position, atom, value)| {

@@ -1,4 +1,4 @@
-//! Judgements on what is possible: that some run from power-on shows it.
+//! Verdicts on possibility: some run from power-on satisfies the formula.
 
 use super::Outcome;
 use super::check::{Judge, Labelled, STOPPED, disagreed};
@@ -6,8 +6,8 @@ use super::failing::what_is_missing;
 use petril_logic::Bound;
 
 impl Judge<'_> {
-    /// Whether a formula that says that something is possible is true in some initial state. A run from there is its witness. It is
-    /// violated if it is false in all of them.
+    /// Decides whether an existential formula is true in some initial state, with a run from there as witness. Violated
+    /// if it is false in all initial states.
     pub(super) fn outcome_of_possibility(&self, formula: &Bound) -> Outcome {
         let Self { graph, .. } = *self;
         let Some(labelled) = self.labelled(formula) else { return STOPPED };
@@ -20,11 +20,11 @@ impl Judge<'_> {
         if let Some(reason) = self.undecided(is_false) {
             return Outcome::Unknown(reason);
         }
-        // No run shows what no run does; the one that is shown is as good as any.
+        // An impossibility has no run of its own, so any run stands in.
         self.broken(&labelled).unwrap_or_else(|| Outcome::Unknown(what_is_missing(graph)))
     }
 
-    /// That a formula about what is possible, which is false in some initial state, is true in another one, in words.
+    /// Sentence saying that an existential formula, false in some initial state, is true in another one.
     pub(super) fn elsewhere(&self, labelled: &Labelled<'_>) -> Option<String> {
         let Labelled { formula, dag, yes, labels, .. } = labelled;
         let is_true = |&state: &u32| self.counts(state) && labels.of(*yes).contains(state as usize);

@@ -1,4 +1,4 @@
-//! Whether the premises of a requirement that holds ever occur, and a run in which they do.
+//! Vacuity: whether the premises of a requirement that holds ever occur, and a run in which they do.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,16 +8,16 @@ use crate::witness::Disagreement;
 use petril_logic::{Bound, Dag, Fairness, Premise, Step, label, premises, shortest};
 use petril_search::Graph;
 
-/// What is known of the premises of a requirement that holds.
+/// Result for the premises of a requirement.
 #[derive(Default)]
 pub struct Occurrence {
-    /// The first one that never occurs where it is asked about.
+    /// First premise that never occurs where the requirement uses it.
     pub vacuous: Option<Vacuity>,
-    /// If there is none, and the view is that of scans: a run in which the first one occurs, and those that stand behind it.
+    /// In the scan view, if all premises occur: a run to the first one and to those nested in its conclusion.
     pub example: Option<Witness>,
 }
 
-/// Looks for the premises of a requirement on a whole graph.
+/// Searches a complete graph for the premises of a requirement.
 pub fn occurrence(
     view: &dyn SystemView,
     graph: &Graph,
@@ -38,7 +38,7 @@ pub fn occurrence(
             let vacuous = if somewhere { Vacuity::NotThere(text) } else { Vacuity::Nowhere(text) };
             return Ok(Occurrence { vacuous: Some(vacuous), example: None });
         }
-        // The premises of one chain stand behind each other.
+        // Nested premises belong to one chain.
         let goes_on = told
             .as_ref()
             .is_none_or(|(before, _)| premise.way.len() > before.way.len() && premise.way.starts_with(&before.way));
@@ -50,12 +50,12 @@ pub fn occurrence(
     Ok(Occurrence { vacuous: None, example })
 }
 
-/// Whether a way begins with a step to any state, all of which can be reached.
+/// Whether a way begins with a step to any state; all states are reachable.
 fn is_anywhere(step: Option<&Step<'_>>) -> bool {
     matches!(step, Some(Step::Eventually(Bound::Truth(false))))
 }
 
-/// The states from which each rest of the way can be gone. A first step to any state is not computed.
+/// For each suffix of the way, the states from which it can be followed. A first step to any state is not computed.
 fn sets(view: &dyn SystemView, graph: &Graph, paths: Option<&Fairness>, premise: &Premise<'_>) -> Vec<FixedBitSet> {
     let rests = premise.rests();
     let skipped = usize::from(is_anywhere(premise.way.first()));
@@ -63,19 +63,19 @@ fn sets(view: &dyn SystemView, graph: &Graph, paths: Option<&Fairness>, premise:
     let nodes: Vec<_> = rests[skipped..].iter().map(|rest| dag.add(rest, false)).collect();
     let holds = |formula: &Bound, state: u32| view.holds(formula, graph.state(state));
     let labels = label(graph, &dag, &holds, paths);
-    // Where no run goes that counts, nothing occurs.
+    // Only states of fair runs count.
     let counting = |set: &FixedBitSet| paths.map_or_else(|| set.clone(), |paths| set & paths.surely());
     let known = nodes.into_iter().map(|node| counting(labels.of(node)));
     std::iter::repeat_n(FixedBitSet::new(), skipped).chain(known).collect()
 }
 
-/// A run to a premise, and the step that its conclusion speaks of.
+/// Run to a premise, and on to the step that its conclusion is about.
 struct Example<'a> {
     view: &'a dyn SystemView,
     graph: &'a Graph,
     paths: Option<&'a Fairness>,
     states: Vec<u32>,
-    /// What holds where.
+    /// State formulas shown, with their positions.
     claims: Vec<(usize, &'a Bound)>,
 }
 
@@ -94,12 +94,12 @@ impl<'a> Example<'a> {
         example.witness()
     }
 
-    /// Goes the way, as short as can be.
+    /// Follows the way by shortest paths.
     fn walk(&mut self, premise: &Premise<'a>, sets: &[FixedBitSet]) {
         let lowest = |set: &FixedBitSet, of: &[u32]| of.iter().copied().find(|&state| set.contains(state as usize));
         let anywhere = is_anywhere(premise.way.first());
         if anywhere {
-            // States are numbered by their distance.
+            // States are numbered by distance (breadth-first).
             let nearest = sets[1].ones().next().map(|state| state as u32);
             self.states = nearest.map(|state| self.graph.path_to(state)).unwrap_or_default();
         } else {
@@ -121,7 +121,7 @@ impl<'a> Example<'a> {
         }
     }
 
-    /// Goes on to where the conclusion speaks of.
+    /// Continues to the states that the conclusion is about.
     fn follow(&mut self, mut conclusion: &'a Bound) {
         while let Some(&state) = self.states.last() {
             match conclusion {
@@ -143,7 +143,7 @@ impl<'a> Example<'a> {
         }
     }
 
-    /// Whether a run goes on from here that counts.
+    /// Whether a fair run surely begins in the state.
     fn counts(&self, state: u32) -> bool {
         self.paths.is_none_or(|paths| paths.surely().contains(state as usize))
     }
@@ -158,7 +158,7 @@ impl<'a> Example<'a> {
         }
     }
 
-    /// The run, replayed, and what it shows.
+    /// Replays the run and checks its claims.
     fn witness(self) -> Result<Witness, Disagreement> {
         let states: Vec<&[u64]> = self.states.iter().map(|&state| self.graph.state(state)).collect();
         let text = |formula: &Bound| formula.text(self.view.system());

@@ -1,4 +1,4 @@
-//! What is worth knowing though nobody asked: outputs that never change, instructions that are never executed.
+//! Further findings: outputs that never change, instructions that are never executed.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -8,16 +8,16 @@ use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 use petril_search::Graph;
 
-/// Something about all reachable states.
+/// Finding about all reachable states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Remark {
-    /// An output has this value at the end of every scan.
+    /// Output with its constant value at the end of every scan.
     NeverChanges(VarId, u64),
-    /// No scan executes this line (from 0), nor any other line that comes from the same piece of source.
+    /// Dead code: a line (from 0) that no scan executes, nor any other line of the same piece of source.
     NeverExecuted(usize),
 }
 
-/// The remarks on a system whose graph is complete, with the lines that are never executed; there are none on another one.
+/// Findings about a system, given its dead lines; none unless the graph is complete.
 pub fn remarks(space: &ScanSpace<'_>, graph: &Graph, never: &[usize]) -> Vec<Remark> {
     if !graph.is_complete() || graph.is_empty() {
         return Vec::new();
@@ -33,8 +33,8 @@ pub fn remarks(space: &ScanSpace<'_>, graph: &Graph, never: &[usize]) -> Vec<Rem
     remarks
 }
 
-/// Of lines that are never executed, the first of each piece of source. What comes from one piece, as the code of a function at each
-/// call, must be dead everywhere.
+/// First dead line of each piece of source. All lines that come from one piece, such as the code of a function at each
+/// call, must be dead.
 pub fn dead_pieces(program: &FlatProgram, never: &[usize]) -> Vec<usize> {
     let mut spans: BTreeSet<_> = never.iter().map(|&line| program.code[line].span).collect();
     let is_dead: BTreeSet<usize> = never.iter().copied().collect();

@@ -1,4 +1,4 @@
-//! The scan view beside what formulas have to remember of earlier scans.
+//! The scan view extended by the history that past-time formulas need.
 
 use super::Trace;
 use super::views::{ScanStates, ScanView, SystemView};
@@ -8,7 +8,7 @@ use crate::witness::{Disagreement, Holds, replay_scans, scan_trace};
 use petril_logic::{Bound, History, remembered};
 use petril_search::{Budget, Graph, Observer, Progress, observed};
 
-/// The scan view, where a state has a memory, too. The words of a state are its number in the scan view, and its memory.
+/// The scan view with memory. A state's words are its number in the scan view and its memory.
 pub struct RememberingView<'a, 's> {
     base: &'a ScanView<'s>,
     history: History,
@@ -16,7 +16,7 @@ pub struct RememberingView<'a, 's> {
 }
 
 impl<'a, 's> RememberingView<'a, 's> {
-    /// The view of formulas that know so much of the past.
+    /// Builds the product of the scan view with the memory for this history.
     pub fn new(
         base: &'a ScanView<'s>,
         history: History,
@@ -88,7 +88,7 @@ impl SystemView for RememberingView<'_, '_> {
         let mut knot = None;
         replay_scans(self.system(), &trace, |position, recalled| {
             self.base.check_assumptions(recalled)?;
-            // What repeats for ever must be the same for the formulas, too.
+            // The loop has to close in the memory, too.
             let known: Vec<i128> = self.history.pasts().map(|past| recalled.past(past)).collect();
             if position == states.len() {
                 return match knot.take() == Some(known) {

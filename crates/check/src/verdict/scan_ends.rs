@@ -1,4 +1,4 @@
-//! The check that every scan ends, made without asking: a program with a loop may never come to its end.
+//! Termination check: every scan ends. A program with a loop may never reach its end.
 
 use super::failing::{Failing, failing_scan, what_is_missing};
 use super::why::of_error;
@@ -10,12 +10,12 @@ use petril_lang::interpret::{Fault, MAX_STEPS};
 use petril_logic::{Bound, Quantifier};
 use petril_search::{DeadEnd, Graph, Stop};
 
-/// The check with its outcome.
+/// Builds the answer of the check from its outcome.
 pub fn answer(outcome: Outcome) -> Answer {
     Answer::of_check("scan-ends", "Every scan comes to its end.", "AG (scan begins -> AF scan ends)", outcome)
 }
 
-/// The check in the transition view.
+/// The check in the transition view, as a formula.
 pub fn formula(system: &System) -> Bound {
     let control = |line| Box::new(Bound::Marked(system.place(PlaceRole::Line(line))));
     let ends = Bound::Until {
@@ -32,7 +32,7 @@ pub fn formula(system: &System) -> Bound {
     }
 }
 
-/// The check in the scan view: the search has met every scan there is.
+/// The check in the scan view: all reachable scans have been explored.
 pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
     match failing_scan(space, graph, |failure| *failure == Failure::Scan(Fault::Endless)) {
         Failing::Shown(witness) => {
@@ -57,7 +57,7 @@ pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph) -> Outcome {
     }
 }
 
-/// Whether control can go back. A program without loops ends whatever it computes.
+/// Whether the program has a backward jump. A program without one terminates whatever it computes.
 fn has_loops(program: &FlatProgram) -> bool {
     let mut lines = program.code.iter().enumerate();
     lines.any(|(line, code)| matches!(code.instruction, Instruction::Jump { target, .. } if target <= line))

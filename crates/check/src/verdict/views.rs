@@ -1,4 +1,4 @@
-//! What the two views have in common for a check: states, what holds in them, and traces to them.
+//! Common interface of the two views: states, valuation of formulas, and traces.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -16,17 +16,17 @@ use petril_search::Graph;
 
 /// A view of a system.
 pub trait SystemView: Sync {
-    /// Its states and steps.
+    /// State graph.
     fn graph(&self) -> &Graph;
     /// The system.
     fn system(&self) -> &System;
-    /// Whether a formula about one state holds in a state.
+    /// Whether a state satisfies a state formula.
     fn holds(&self, formula: &Bound, state: &[u64]) -> bool;
-    /// Its states as ends of scans, if they are.
+    /// The states as ends of scans; `None` in the transition view.
     fn scans(&self) -> Option<&dyn ScanStates> {
         None
     }
-    /// The trace along some states, replayed; `shows` is asked at each of them whether the replay shows what it should.
+    /// Replays the trace along some states; `shows` is called at each of them and checks the claims made there.
     fn replayed(
         &self,
         states: &[&[u64]],
@@ -39,11 +39,11 @@ pub trait SystemView: Sync {
 pub trait ScanStates: SystemView {
     /// The scan view itself.
     fn base(&self) -> &ScanView<'_>;
-    /// The end of a scan as the space packs it, and the memory, of a state.
+    /// The two parts of a state: end of scan as the space packs it, and memory.
     fn parts<'a>(&'a self, state: &'a [u64]) -> (&'a [u64], &'a [u64]);
-    /// The memory at the end of a scan that comes after another one with its memory, or is the first one.
+    /// Memory at the end of a scan, from the scan before it with its memory; `None` for the first scan.
     fn remember(&self, before: Option<(&[u64], &[u64])>, end: &[u64]) -> Vec<u64>;
-    /// Whether a formula about one state holds at the end of a scan, which need not be a state of the graph.
+    /// Whether a state formula holds at the end of a scan, which need not be a state of the graph.
     fn holds_after(&self, formula: &Bound, end: &[u64], memory: &[u64]) -> bool;
 }
 
@@ -105,7 +105,7 @@ impl ScanStates for ScanView<'_> {
 }
 
 impl ScanView<'_> {
-    /// What is assumed must be so in the scan that has just ended.
+    /// Checks the assumptions in the scan that has just ended.
     pub fn check_assumptions(&self, recalled: &Recalled) -> Result<(), Disagreement> {
         match self.assumptions.iter().find(|assumption| recalled.holds(&assumption.formula) != Some(true)) {
             Some(broken) => Err(Disagreement(format!("the assumption `{}` does not hold in the trace", broken.text))),
@@ -148,8 +148,8 @@ impl SystemView for TransitionView<'_> {
     }
 }
 
-/// The run that evidence describes, replayed, with everything it claims about single states checked on the net; and that it
-/// meets the fairness assumptions if it goes round for ever. `look` is called at each of its states, too.
+/// Replays the run described by evidence. All its claims about single states are checked on the net, and a lasso must
+/// meet the fairness assumptions. `look` is called at each state, too.
 pub fn witness(
     view: &dyn SystemView,
     dag: &Dag,
@@ -160,7 +160,7 @@ pub fn witness(
     let graph = view.graph();
     let states: Vec<&[u64]> = evidence.states.iter().map(|&state| graph.state(state)).collect();
     let constraints: Vec<&Constraint> = assumed.iter().flat_map(|assumed| &assumed.constraints).collect();
-    // Of each constraint, whether its premise and its goal were seen within the loop.
+    // For each constraint, whether premise and goal were seen within the loop.
     let seen = RefCell::new(vec![(false, false); constraints.len()]);
     let trace = view.replayed(&states, evidence.loop_start, &|position, holds| {
         // Claims are in the order of the path.
@@ -188,10 +188,10 @@ pub fn witness(
     Ok(Witness { trace, notes: notes(view.system(), dag, evidence) })
 }
 
-/// The claims of evidence as notes; a claim that is made of state after state becomes one note.
+/// Claims of evidence as notes; a claim about consecutive states becomes one note.
 fn notes(system: &System, dag: &Dag, evidence: &Evidence) -> Vec<Note> {
     let mut notes: Vec<Note> = Vec::new();
-    // Of each node its text, and of each text its latest note: claims are in the order of the path.
+    // Text of each node, and latest note of each text: claims are in the order of the path.
     let (mut texts, mut latest) = (BTreeMap::new(), BTreeMap::new());
     for claim in evidence.claims.iter().filter(|claim| !dag.is_constant(claim.node, true)) {
         let text: &String = texts.entry(claim.node).or_insert_with(|| dag.sentence(claim.node, system));

@@ -1,25 +1,26 @@
-//! Which variables of a run are shown, and in which order.
+//! Columns of a run's table: which variables are shown, and in which order.
 
 use std::collections::BTreeSet;
 
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 
-/// Columns up to which a table is taken in at a glance, so that they stay in the order of the program.
+/// Upper bound on columns that are taken in at a glance and therefore stay in the order of the program.
 const FEW: usize = 8;
 
-/// The variables of a run that are shown, in groups.
+/// Variables shown of a run, in groups.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Columns {
-    /// The groups: in a wide table those that the requirement speaks of, then inputs, memory and outputs.
+    /// Groups of columns: in a wide table first the variables the requirement mentions, then inputs, memory and
+    /// outputs.
     pub groups: Vec<Vec<VarId>>,
-    /// Number of variables that are not shown.
+    /// Number of variables not shown.
     pub hidden: usize,
 }
 
 impl Columns {
-    /// Those that the program declares, without what is local to instances of function blocks; of these only the ones that are
-    /// `wanted`, which the requirement speaks of. Where there are many, the wanted ones come first.
+    /// Variables declared by the program. Variables local to function block instances are included only if `wanted`
+    /// (mentioned by the requirement). In a wide table the wanted ones come first.
     #[must_use]
     pub fn declared(program: &FlatProgram, wanted: &BTreeSet<VarId>) -> Self {
         let is_shown = |id: VarId| !program.internal.contains(&id) || wanted.contains(&id);
@@ -36,7 +37,7 @@ impl Columns {
         Self { groups: std::iter::once(front).chain(others).filter(|group| !group.is_empty()).collect(), ..all }
     }
 
-    /// Inputs, memory and outputs that `is_shown` accepts, in the order of the program.
+    /// Inputs, memory and outputs accepted by `is_shown`, in the order of the program.
     #[must_use]
     pub fn chosen(program: &FlatProgram, is_shown: &dyn Fn(VarId) -> bool) -> Self {
         let groups = [Role::Input, Role::Memory, Role::Output].map(|role| program.with_role(role).collect::<Vec<_>>());
@@ -47,7 +48,7 @@ impl Columns {
         Self { groups, hidden }
     }
 
-    /// All variables that are shown, in their order.
+    /// Variables shown, in column order.
     pub fn iter(&self) -> impl Iterator<Item = VarId> {
         self.groups.iter().flatten().copied()
     }

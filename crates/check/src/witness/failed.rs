@@ -1,4 +1,5 @@
-//! Why a run meets an error: what the instruction had to give, what it got, and who wrote the values that led there.
+//! Diagnosis of a run-time error: expected and actual value at the instruction, and the last writers of the values it
+//! depends on.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,21 +10,21 @@ use petril_lang::flat::{FlatProgram, Function, Hazard, Instruction, Operand, Tar
 use petril_lang::interpret::Machine;
 use petril_lang::semantics::{Role, VarId};
 
-/// Values told in a sentence at most.
+/// Upper bound on values named in a sentence.
 const MOST: usize = 4;
 
-/// An error that a scan meets, or that it never ends.
+/// Diagnosis of a scan that meets an error or never ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failed {
-    /// What was wanted, and what there was instead, as a sentence.
+    /// Expected and actual value, as a sentence.
     pub wanted: String,
-    /// The variables that led there and that the program had written, each with who wrote it last.
+    /// Variables the error depends on and the program has written, each with its last write.
     pub writes: Vec<(VarId, Write)>,
-    /// Those that had their initial values.
+    /// Variables the error depends on that still have their initial values.
     pub unwritten: Vec<VarId>,
 }
 
-/// Tells why the last scan of a run that has been replayed meets an error, or never ends; nothing of other runs.
+/// Diagnoses the last scan of a replayed run that meets an error or never ends; `None` for other runs.
 #[must_use]
 pub fn failed(system: &System, trace: &ScanTrace) -> Option<Failed> {
     let (last, before) = trace.scans.split_last()?;
@@ -44,15 +45,15 @@ pub fn failed(system: &System, trace: &ScanTrace) -> Option<Failed> {
     Some(run.failed(wanted, &sources))
 }
 
-/// A run with what its values come from.
+/// A run with the origins of its values (dynamic data dependences).
 struct Run<'p> {
     program: &'p FlatProgram,
     machine: Machine<'p>,
     scan: usize,
     writes: BTreeMap<VarId, Write>,
-    /// Variables from which the current result was computed since it was loaded.
+    /// Variables that the current result was computed from since it was loaded.
     sources: BTreeSet<VarId>,
-    /// The same of what buffers hold.
+    /// Variables that the contents of each buffer were computed from.
     held: BTreeMap<VarId, BTreeSet<VarId>>,
 }
 
@@ -78,7 +79,7 @@ impl<'p> Run<'p> {
         }
     }
 
-    /// Variables from which what an instruction reads was computed.
+    /// Variables that the value of an operand was computed from.
     fn read(&self, target: Target) -> BTreeSet<VarId> {
         let index = if let Target::Element(element) = target { Some(element.index) } else { None };
         let all = [Some(self.variable(target)), index].into_iter().flatten();
@@ -118,7 +119,7 @@ impl<'p> Run<'p> {
         }
     }
 
-    /// Goes on to the first time that a line meets an error: what was wanted there, and the variables that led to it.
+    /// Executes up to the first error at a line; returns the diagnosis and the variables it depends on.
     fn error(&mut self, line: usize, hazard: Hazard) -> Option<(String, BTreeSet<VarId>)> {
         let meets = |machine: &Machine<'_>| machine.line() == line && machine.clone().step() == Some(hazard);
         while !meets(&self.machine) {
@@ -140,7 +141,7 @@ impl<'p> Run<'p> {
         Some((format!("{place} {wanted}{facts}"), sources))
     }
 
-    /// What an instruction that is about to meet an error had to give or to get, and what there is instead.
+    /// Expected and actual value at an instruction that is about to meet an error.
     fn demand(&self, instruction: Instruction, hazard: Hazard) -> Option<String> {
         let result = self.machine.result();
         Some(match instruction {
@@ -172,7 +173,8 @@ impl<'p> Run<'p> {
         })
     }
 
-    /// Goes on until a state comes again: the lines between which control goes round, and the variables that are read there.
+    /// Executes up to the first repeated state; returns the lines of the endless loop in words, and the variables read
+    /// there.
     fn endless(&mut self) -> Option<(String, BTreeSet<VarId>)> {
         let mut ahead = self.machine.clone();
         ahead.scan().is_err().then_some(())?;
@@ -208,7 +210,7 @@ impl<'p> Run<'p> {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// The values of variables, in words.
+    /// Values of variables, in words.
     fn facts(&self, variables: &BTreeSet<VarId>) -> String {
         let fact = |&id: &VarId| {
             let value = self.program.value_text(id, self.machine.value(id));

@@ -8,16 +8,16 @@ use petril_net::Markings;
 use petril_net::net::TransitionId;
 use petril_search::Step;
 
-/// A run as a list of firings from the initial marking.
+/// Firing sequence from the initial marking.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FiringTrace {
-    /// The transitions in the order of firing.
+    /// Transitions in the order of firing.
     pub firings: Vec<TransitionId>,
-    /// For a lasso, the number of firings after which the marking was the one that the last firing leads to.
+    /// For a lasso, the number of firings before the marking that the last firing returns to.
     pub loop_start: Option<usize>,
 }
 
-/// The trace of packed markings that follow one another, the first being the initial one.
+/// Reconstructs the firings between consecutive packed markings, the first being the initial one.
 #[must_use]
 pub fn firing_trace(markings: &Markings<'_>, states: &[&[u64]], loop_start: Option<usize>) -> FiringTrace {
     let closing = loop_start.map(|start| states[start]);
@@ -34,10 +34,10 @@ pub fn firing_trace(markings: &Markings<'_>, states: &[&[u64]], loop_start: Opti
     FiringTrace { firings: firings.collect(), loop_start }
 }
 
-/// Replays a trace, and calls `at` with the number of firings so far, first with 0.
+/// Replays a trace and calls `at` with the number of firings so far, beginning with 0.
 ///
 /// # Errors
-/// The trace is not one of the system, or `at` finds that it does not show what it should.
+/// The trace is not one of the system, or `at` finds that it does not show the expected facts.
 pub fn replay_firings(
     system: &System,
     trace: &FiringTrace,

@@ -1,4 +1,4 @@
-//! Long runs shortened: stretches in which nothing happens but that clocks and counters go on.
+//! Folding of long runs: stretches in which only clocks and counters advance become one line.
 
 use std::collections::BTreeSet;
 
@@ -6,44 +6,44 @@ use super::scan_trace::ScanTrace;
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 
-/// Scans that a fold hides at least.
+/// Lower bound on the length of a folded stretch, in scans.
 const LEAST: usize = 8;
 
-/// Longest pattern of scans that is recognised as one that comes again and again.
+/// Upper bound on the period of a folded stretch, in scans.
 const LONGEST_PERIOD: usize = 4;
 
-/// A part of a run as it is shown. Scans are positions in the run, from 0.
+/// Part of a run as shown. Scans are positions in the run, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece {
-    /// A scan that is shown.
+    /// Scan shown in full.
     Scan(usize),
-    /// Scans that are told in one line.
+    /// Stretch of scans summarised in one line.
     Fold(Fold),
 }
 
-/// A stretch of scans that repeat the scans before it, but for numbers that go on in equal steps.
+/// Stretch of scans that repeat the scans before it, except for numbers that advance in equal steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fold {
     /// First scan of the stretch.
     pub first: usize,
     /// Last scan of the stretch.
     pub last: usize,
-    /// Number of scans after which the pattern comes again; 1 if all are alike.
+    /// Period of the pattern in scans; 1 if all scans are alike.
     pub period: usize,
-    /// Numbers that go on, in the order of the columns.
+    /// Numbers that advance, in the order of the columns.
     pub moved: Vec<Moved>,
-    /// Variables that take turns through some values, with the values of the first scans of the stretch, one for each scan of a period.
+    /// Variables that alternate, with their values in the first period of the stretch, one value per scan.
     pub turns: Vec<(VarId, Vec<u64>)>,
 }
 
-/// A number that goes on during a stretch. Values are patterns of its type.
+/// Number that advances during a stretch. Values are bit patterns of its type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Moved {
-    /// The variable.
+    /// Variable.
     pub variable: VarId,
     /// Value before the stretch.
     pub from: u64,
-    /// Value at its end.
+    /// Value at the end of the stretch.
     pub to: u64,
 }
 
@@ -63,7 +63,7 @@ impl Fold {
         }
     }
 
-    /// The values that moved, each in words: "n 1 → 499", "Pulse 0, 1 in turn".
+    /// Changes in words: "n 1 → 499", "Pulse 0, 1 in turn".
     #[must_use]
     pub fn movements(&self, program: &FlatProgram, arrow: &str) -> Vec<String> {
         let moved = self.moved.iter().map(|&Moved { variable, from, to }| {
@@ -78,11 +78,11 @@ impl Fold {
     }
 }
 
-/// The pieces of a run of which these variables are shown. `kept` are scans that are shown in any case, as are the first and the
-/// last one, those that meet an error, and the one to which a lasso leads back.
+/// Splits a run into pieces, judged by the variables shown. Scans in `kept` are always shown, and so are the first
+/// scan, the last one, scans that meet an error, and the scan a lasso loops back to.
 ///
-/// A scan continues a stretch of period *p* if each input and truth value is that of *p* scans before, each number of the program
-/// has made the step it made *p* scans before, and the plant the moves it made then.
+/// A scan continues a stretch of period *p* if each input and Boolean has its value of *p* scans earlier, each computed
+/// number makes the step it made *p* scans earlier, and the plant makes the same moves.
 #[must_use]
 pub fn fold(program: &FlatProgram, trace: &ScanTrace, shown: &[VarId], kept: &BTreeSet<usize>) -> Vec<Piece> {
     let folding = Folding { program, trace, shown, kept };
@@ -116,7 +116,7 @@ struct Folding<'a> {
 }
 
 impl Folding<'_> {
-    /// The value after so many scans.
+    /// Value after this number of scans.
     fn value(&self, scans: usize, variable: VarId) -> Option<u64> {
         match scans.checked_sub(1) {
             None => Some(self.program.variable(variable).initial),
@@ -147,7 +147,7 @@ impl Folding<'_> {
         Some(number(now) - number(before_now) == number(then) - number(before_then))
     }
 
-    /// Whether a variable is a number that the program computes.
+    /// Whether a variable is a number computed by the program.
     fn may_go_on(&self, variable: VarId) -> bool {
         let variable = self.program.variable(variable);
         variable.role != Role::Input && !variable.ty.is_bool()
@@ -158,7 +158,7 @@ impl Folding<'_> {
         for &variable in self.shown {
             let values: Vec<u64> = (first..first + period).filter_map(|scan| self.value(scan + 1, variable)).collect();
             let (from, to) = (self.value(first, variable), self.value(last + 1, variable));
-            // A number that is another one after a period goes on.
+            // A number that differs after a period advances.
             if let (Some(from), Some(to), true) = (from, to, values.last() != from.as_ref()) {
                 moved.push(Moved { variable, from, to });
             } else if values.windows(2).any(|pair| pair[0] != pair[1]) {

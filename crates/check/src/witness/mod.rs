@@ -1,8 +1,8 @@
-//! Traces: reconstructed from what a search found, replayed by code that shares nothing with the search, told in the terms
-//! of the program.
+//! Traces: reconstructed from search results, replayed by code independent of the search, and presented in the terms of
+//! the program.
 //!
-//! The replay plays the token game of [`petril_net::net`] firing by firing and runs the interpreter beside it, instruction by
-//! instruction; net and interpreter must agree on every bit at every step, and with what the search claims.
+//! The replay plays the token game of [`crate::net`] firing by firing and runs the interpreter in step with it; net and
+//! interpreter must agree on every bit after every instruction, and with the claims of the search.
 
 mod columns;
 mod failed;

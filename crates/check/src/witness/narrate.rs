@@ -1,4 +1,4 @@
-//! Traces told in the terms of the program: a table of scans, and the instructions of a scan with the current result.
+//! Presentation of traces: a table of scans, and the instructions of a scan with the current result.
 
 use super::columns::Columns;
 use super::firing_trace::FiringTrace;
@@ -11,12 +11,12 @@ use petril_base::source::Source;
 use petril_lang::flat::value_text;
 use petril_lang::semantics::{Role, VarId};
 
-/// Values that move in a folded stretch of which the table tells at most.
+/// Upper bound on changes listed for a folded stretch.
 const MOST_MOVEMENTS: usize = 12;
 
-/// A table with one row a scan: inputs, memory, outputs, and what the plant did before. A star marks a value that differs
-/// from the one a scan earlier (for the first scan, from the one at power-on). The last scan of a lasso is marked with the
-/// scan it repeats.
+/// Table with one row per scan: inputs, memory, outputs, and the plant's moves before the scan. A star marks a value
+/// that differs from the one a scan earlier (for the first scan, from the one at power-on). The last scan of a lasso is
+/// marked with the scan it repeats.
 #[must_use]
 pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
     let columns = Columns::chosen(&system.program, &|_| true);
@@ -24,19 +24,19 @@ pub fn scan_table(system: &System, trace: &ScanTrace) -> Table {
     piecewise_scan_table(system, trace, &Shown { columns, pieces, is_marked: &|_, _| false, is_ascii: false })
 }
 
-/// The parts of a run that a table shows.
+/// Selection and style of a table of scans.
 pub struct Shown<'a> {
-    /// The variables.
+    /// Columns.
     pub columns: Columns,
-    /// The scans, some of them folded.
+    /// Scans, some of them folded.
     pub pieces: Vec<Piece>,
-    /// Whether a value, of a scan (from 0) and a variable, has an exclamation mark.
+    /// Whether the value of a variable after a scan (from 0) is marked with an exclamation mark.
     pub is_marked: &'a dyn Fn(usize, VarId) -> bool,
-    /// Whether only ASCII is used beside names.
+    /// Whether only ASCII is used apart from names.
     pub is_ascii: bool,
 }
 
-/// A table as [`scan_table`] makes it, of some variables, with one line for each stretch that is folded.
+/// Table in the form of [`scan_table`] for a selection of variables, with one line per folded stretch.
 #[must_use]
 pub fn piecewise_scan_table(system: &System, trace: &ScanTrace, shown: &Shown<'_>) -> Table {
     let program = &system.program;
@@ -90,10 +90,10 @@ pub fn piecewise_scan_table(system: &System, trace: &ScanTrace, shown: &Shown<'_
     table
 }
 
-/// The instructions a scan of the trace executes, each with the current result after it, the variable it changed,
-/// and the hazard it met.
+/// Table of the instructions executed in a scan, each with the current result after it, the variable it changed, and
+/// the hazard it met.
 ///
-/// A scan that never ends is told until its state repeats.
+/// A scan that never ends is listed until its state repeats.
 #[must_use]
 pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &Source) -> Table {
     let program = &system.program;
@@ -102,7 +102,7 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
         vec![Column::right("CR"), Column::left("changes")],
         vec![Column::right("source"), Column::left("text")],
     ]);
-    // A trace that does not replay has no verdict, and is not told.
+    // A trace that does not replay has no verdict and is not shown.
     let told = story(system, trace, scan, usize::MAX).unwrap_or_default().unwrap_or_default();
     for executed in told.iter().take(1).flat_map(|scan| &scan.instructions) {
         let code = &program.code[executed.line];
@@ -123,8 +123,8 @@ pub fn line_by_line(system: &System, trace: &ScanTrace, scan: usize, source: &So
     table
 }
 
-/// A firing sequence as a table: each firing, the scan it belongs to, and the instruction it executes. The last firing of a
-/// lasso is marked with the firing after which the marking was the same.
+/// Table of a firing sequence: each firing, the scan it belongs to, and the instruction it executes. The last firing of
+/// a lasso is marked with the firing after which the marking was the same.
 #[must_use]
 pub fn firing_table(system: &System, trace: &FiringTrace) -> Table {
     let mut table = Table::new(vec![

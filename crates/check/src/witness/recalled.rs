@@ -1,61 +1,62 @@
-//! What a replayed run says of the past, by the definitions: every question goes back through the scans again.
+//! Past-time formulas on a replayed run, evaluated by their definitions: each evaluation goes back through the scans.
 
 use petril_lang::semantics::VarId;
 use petril_logic::{Bound, Past, Valuation};
 use petril_net::net::{Marking, PlaceId};
 
-/// The values of the variables at power-on and at the ends of the scans so far, as the net had them.
+/// Values of the variables at power-on and at the ends of the scans so far, as read from the net.
 #[derive(Clone, Debug)]
 pub struct Recalled {
     power_on: Vec<u64>,
     ends: Vec<Vec<u64>>,
-    /// The marking of the net at the end of the last scan, if it is known.
+    /// Marking of the net at the end of the last scan, if known.
     marking: Option<Marking>,
 }
 
 impl Recalled {
-    /// No scan yet.
+    /// Starts at power-on, without scans.
     #[must_use]
     pub fn new(power_on: Vec<u64>) -> Self {
         Self { power_on, ends: Vec::new(), marking: None }
     }
 
-    /// A scan has ended with these values.
+    /// Appends the values at the end of a scan.
     pub fn push(&mut self, memory: Vec<u64>) {
         self.ends.push(memory);
         self.marking = None;
     }
 
-    /// The net has this marking at the end of the last scan.
+    /// Sets the marking of the net at the end of the last scan.
     pub fn mark(&mut self, marking: Marking) {
         self.marking = Some(marking);
     }
 
-    /// Whether a formula about this scan and those before it holds at the end of the last scan; `None` for a temporal formula.
+    /// Whether a formula about this scan and earlier ones holds at the end of the last scan; `None` for a temporal
+    /// formula.
     #[must_use]
     pub fn holds(&self, formula: &Bound) -> Option<bool> {
         formula.holds_in(&self.at(self.ends.len().checked_sub(1)))
     }
 
-    /// The value of a variable at the end of the last scan; at power-on if there was none.
+    /// Value of a variable at the end of the last scan, or at power-on if there was none.
     #[must_use]
     pub fn value(&self, variable: VarId) -> u64 {
         self.at(self.ends.len().checked_sub(1)).value(variable)
     }
 
-    /// The value of a term about the past at the end of the last scan.
+    /// Value of a past-time term at the end of the last scan.
     #[must_use]
     pub fn past(&self, past: &Past) -> i128 {
         self.at(self.ends.len().checked_sub(1)).past(past)
     }
 
-    /// The end of a scan, from 0; `None` is power-on.
+    /// Valuation at the end of a scan, from 0; `None` is power-on.
     fn at(&self, scan: Option<usize>) -> At<'_> {
         At { recalled: self, scan }
     }
 }
 
-/// A moment of a run.
+/// Position in a run, as a valuation.
 struct At<'r> {
     recalled: &'r Recalled,
     scan: Option<usize>,
@@ -78,13 +79,13 @@ impl Valuation for At<'_> {
         match past {
             Past::First => i128::from(self.scan == Some(0)),
             Past::Before(term) => {
-                // Before power-on, everything was as it is then.
+                // Power-on is its own predecessor.
                 let before = self.recalled.at(self.scan.and_then(|scan| scan.checked_sub(1)));
                 term.value_in(&before).unwrap_or_default()
             }
             Past::Since(f, g) => {
                 let Some(now) = self.scan else { return 0 };
-                // The last scan with g, or without f in the scan itself, decides.
+                // The last scan that satisfies g, or violates f, decides.
                 let decisive = (0..=now).rev().find(|&then| at(then).holds(g) || !at(then).holds(f));
                 i128::from(decisive.is_some_and(|then| at(then).holds(g)))
             }

@@ -1,4 +1,4 @@
-//! The token game and the interpreter side by side.
+//! Replay: the token game and the interpreter side by side.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use petril_lang::semantics::{Role, Type, VarId};
 use petril_logic::{Bound, Valuation};
 use petril_net::net::{Marking, PlaceId, TransitionId};
 
-/// Net, interpreter and search do not tell the same story. One of them is wrong, so there is no verdict.
+/// Disagreement between net, interpreter and search. One of them is wrong, so there is no verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Disagreement(pub String);
 
@@ -20,36 +20,36 @@ impl fmt::Display for Disagreement {
     }
 }
 
-/// A run of a system, both as firings and as instructions.
+/// A run of a system, both as firings and as instructions executed.
 #[derive(Clone, Debug)]
 pub struct Replay<'s> {
     system: &'s System,
     marking: Marking,
-    /// The place where control is.
+    /// Place that holds the control token.
     control: PlaceId,
     machine: Machine<'s>,
-    /// What the last instruction gave the current result: so many of its bits have a meaning.
+    /// Type of the current result after the last instruction; only its bits have a meaning.
     given: Type,
-    /// The hazards whose places control has passed within this line.
+    /// Hazards whose places control has passed within this line.
     passed: Vec<Hazard>,
-    /// The hazards met since the scan began, each with its line.
+    /// Hazards met since the scan began, each with its line.
     hazards: Vec<(usize, Hazard)>,
     compared: Compared,
 }
 
-/// Values of which net and interpreter were found to agree. What neither has changed since need not be looked at again.
+/// Values on which net and interpreter agree. A value that neither has changed is not compared again.
 #[derive(Clone, Debug)]
 struct Compared {
     values: Vec<u64>,
     result: (Type, u64),
-    /// The variables of whose bits a firing has moved a token since.
+    /// Variables with a bit whose token has moved since the last comparison.
     touched: Vec<VarId>,
-    /// Whether one has moved a token of the current result.
+    /// Whether a token of the current result has moved since the last comparison.
     is_result_touched: bool,
 }
 
 impl Compared {
-    /// Nothing was compared yet.
+    /// Nothing compared yet.
     fn nothing(variables: usize) -> Self {
         Self {
             values: vec![0; variables],
@@ -61,7 +61,7 @@ impl Compared {
 }
 
 impl<'s> Replay<'s> {
-    /// The run that has not begun: power-on, control in `idle`.
+    /// Starts at power-on, with control in `idle`.
     #[must_use]
     pub fn new(system: &'s System) -> Self {
         Self {
@@ -76,7 +76,7 @@ impl<'s> Replay<'s> {
         }
     }
 
-    /// The run that goes on from the end of a scan, control in `idle`.
+    /// Starts at the end of a scan, with control in `idle`.
     #[must_use]
     pub fn after(system: &'s System, state: &ScanState) -> Self {
         let mut replay = Self::new(system);
@@ -98,25 +98,25 @@ impl<'s> Replay<'s> {
         replay
     }
 
-    /// What the place stands for where control is.
+    /// Role of the control place.
     #[must_use]
     pub fn control(&self) -> PlaceRole {
         self.system.places[self.control.index()]
     }
 
-    /// The current result as the interpreter has it, with the type that the last instruction gave it.
+    /// Current result of the interpreter, with the type given by the last instruction.
     #[must_use]
     pub fn typed_result(&self) -> (Type, u64) {
         (self.given, self.machine.result() & self.given.mask())
     }
 
-    /// The transitions that take control on from where it is, enabled or not.
+    /// Transitions that move control from its place, enabled or not.
     #[must_use]
     pub fn ways(&self) -> &'s [TransitionId] {
         self.system.moves(self.control)
     }
 
-    /// The marking reached.
+    /// Current marking.
     #[must_use]
     pub fn marking(&self) -> &Marking {
         &self.marking
@@ -128,8 +128,8 @@ impl<'s> Replay<'s> {
         self.marking.is_marked(self.system.place(role))
     }
 
-    /// Fires a transition. When control comes to a line, the instruction it comes from has been executed on the net; then the
-    /// interpreter executes it too, and both are compared.
+    /// Fires a transition. When control reaches a line, the net has executed the previous instruction; the interpreter
+    /// then executes it too, and both are compared.
     ///
     /// # Errors
     /// The transition is not enabled, the net not safe, or net and interpreter differ afterwards.
@@ -164,7 +164,7 @@ impl<'s> Replay<'s> {
         self.compare().map_err(|what| Disagreement(format!("after `{}`, net and interpreter differ in {what}", name())))
     }
 
-    /// Lets the interpreter do what a transition stands for that has been fired.
+    /// Lets the interpreter follow a transition that has been fired.
     fn follow(&mut self, transition: TransitionId) -> Result<(), Disagreement> {
         match self.system.transitions[transition.index()] {
             TransitionRole::Block => {
@@ -193,7 +193,7 @@ impl<'s> Replay<'s> {
         Ok(())
     }
 
-    /// The interpreter executes the line that the net has come to the end of. Both must have met the same hazard.
+    /// Executes a line by the interpreter, after the net has finished it. Both must have met the same hazard.
     fn execute(&mut self, line: usize) -> Result<(), Disagreement> {
         self.given = self.system.program.code[line].instruction.gives().unwrap_or(self.given);
         let met: Vec<Hazard> = self.machine.step().into_iter().collect();
@@ -217,10 +217,10 @@ impl<'s> Replay<'s> {
         matches!(self.system.places[self.control.index()], PlaceRole::Within(..) | PlaceRole::Hazard(..))
     }
 
-    /// Fires the one enabled transition among those of these roles.
+    /// Fires the only enabled transition among those with these roles.
     ///
     /// # Errors
-    /// There is not exactly one, or [`Replay::fire`] fails.
+    /// Not exactly one is enabled, or [`Replay::fire`] fails.
     pub fn fire_only(&mut self, of: impl Fn(TransitionRole) -> bool) -> Result<TransitionId, Disagreement> {
         let system = self.system;
         let candidates = system.moves(self.control).iter().chain(system.plant_moves()).copied();
@@ -235,7 +235,7 @@ impl<'s> Replay<'s> {
         Ok(only)
     }
 
-    /// Compares every bit of the variables and the current result that either side may have changed.
+    /// Compares all bits of the variables and the current result that either side may have changed.
     fn compare(&mut self) -> Result<(), String> {
         let (system, marking) = (self.system, &self.marking);
         let is_marked = |place| marking.is_marked(place);
@@ -267,31 +267,31 @@ impl<'s> Replay<'s> {
         }
     }
 
-    /// The value of a variable, as the net has it. What is no value is 0.
+    /// Value of a variable in the net; 0 if its bits are not a value.
     #[must_use]
     pub fn value(&self, variable: VarId) -> u64 {
         self.system.value(variable, |place| self.marking.is_marked(place)).unwrap_or(0)
     }
 
-    /// The current result. It means as many bits as the instruction before gave it.
+    /// Current result. Only the bits given by the previous instruction have a meaning.
     #[must_use]
     pub fn result(&self) -> u64 {
         self.machine.result()
     }
 
-    /// The hazards met since the scan began, each with its line (from 0), in the order of time.
+    /// Hazards met since the scan began, each with its line (from 0), in chronological order.
     #[must_use]
     pub fn hazards(&self) -> &[(usize, Hazard)] {
         &self.hazards
     }
 
-    /// The values of the variables, as the net has them.
+    /// Values of the variables in the net.
     #[must_use]
     pub fn memory(&self) -> Vec<u64> {
         (0..self.system.program.variables.len()).map(|variable| self.value(VarId(variable))).collect()
     }
 
-    /// Whether a formula about one state holds now, as the net has it. `None` for a temporal formula.
+    /// Whether a state formula holds now, in the net; `None` for a temporal formula.
     #[must_use]
     pub fn holds(&self, formula: &Bound) -> Option<bool> {
         formula.holds_in(self)

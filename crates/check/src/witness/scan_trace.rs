@@ -1,4 +1,4 @@
-//! Traces of the scan view: what the plant did, what the inputs were, and what the scan left.
+//! Traces of the scan view: plant moves, inputs and final state of each scan.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -12,31 +12,31 @@ use petril_lang::semantics::{Role, VarId};
 use petril_logic::Bound;
 use petril_net::net::{Marking, TransitionId};
 
-/// A run as a list of scans.
+/// Run as a list of scans.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanTrace {
-    /// The scans from power-on.
+    /// Scans from power-on.
     pub scans: Vec<Scan>,
     /// For a lasso, the position of the scan whose end the last scan repeats.
     pub loop_start: Option<usize>,
 }
 
-/// One scan.
+/// Scan of a trace.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Scan {
-    /// What the plant did before it.
+    /// Moves of the plant before the scan.
     pub moves: Vec<PlantMove>,
-    /// The values copied to the inputs.
+    /// Values copied to the inputs.
     pub inputs: Vec<(VarId, u64)>,
-    /// The state at its end; `None` if it never ends.
+    /// State at the end; `None` if the scan never ends.
     pub end: Option<ScanState>,
-    /// The error it meets, with the line (from 0). What comes after it in the scan, and the state at its end, are as if it
-    /// were tolerated.
+    /// First error of the scan, with its line (from 0). The rest of the scan and the state at its end are computed as
+    /// if the hazard were tolerated.
     pub hazard: Option<(usize, Hazard)>,
 }
 
 impl Scan {
-    /// What the plant did before it: the names of its transitions.
+    /// Names of the plant's transitions before the scan.
     #[must_use]
     pub fn done(&self, system: &System) -> String {
         let names = self.moves.iter().map(|chosen| chosen.name(system));
@@ -44,24 +44,24 @@ impl Scan {
     }
 }
 
-/// A firing of the plant.
+/// Firing of a plant transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlantMove {
-    /// The component.
+    /// Component of the plant.
     pub component: usize,
-    /// Position in its list of transitions.
+    /// Position in the component's list of transitions.
     pub transition: usize,
 }
 
 impl PlantMove {
-    /// The name of the transition.
+    /// Name of the transition.
     #[must_use]
     pub fn name(self, system: &System) -> &str {
         &system.plant.components[self.component].transitions[self.transition].name
     }
 }
 
-/// The trace along packed scan states, as [`scan_trace`] makes it, and one more scan: the first from there that `pick` picks.
+/// Trace along packed scan states, as by [`scan_trace`], with one more scan: the first that `pick` accepts.
 #[must_use]
 pub fn scan_trace_to(
     space: &ScanSpace<'_>,
@@ -74,10 +74,10 @@ pub fn scan_trace_to(
     Some(trace)
 }
 
-/// The trace of packed scan states that follow one another, the first being one after the first scan.
+/// Trace of consecutive packed scan states, the first being one after the first scan.
 ///
-/// With `loop_start`, one more scan leads back to the state at that position. With `failing`, the trace goes on with a scan
-/// that fails in this way from its last state (from power-on if there is none).
+/// With `loop_start`, one more scan returns to the state at that position. With `failing`, a scan that fails in this
+/// way is appended to the last state (to power-on if there is none).
 #[must_use]
 pub fn scan_trace(
     space: &ScanSpace<'_>,
@@ -103,7 +103,7 @@ pub fn scan_trace(
     ScanTrace { scans, loop_start }
 }
 
-/// The first scan from a state that `pick` picks.
+/// The first scan from a state that `pick` accepts.
 fn picked(space: &ScanSpace<'_>, before: &ScanState, pick: &dyn Fn(&ScanRun<'_>) -> bool) -> Option<Scan> {
     let system = space.system();
     let mut picked = None;
@@ -123,7 +123,7 @@ fn picked(space: &ScanSpace<'_>, before: &ScanState, pick: &dyn Fn(&ScanRun<'_>)
     picked
 }
 
-/// What brings the plant from its state at the end of a scan to the given markings.
+/// Moves that bring the plant from its state at the end of a scan to the given markings.
 fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove> {
     let components = system.plant.components.iter().zip(before.plant.iter().zip(plant)).enumerate();
     let paths = components.filter_map(|(i, (component, (&from, &to)))| {
@@ -133,13 +133,13 @@ fn moves(system: &System, before: &ScanState, plant: &[usize]) -> Vec<PlantMove>
     paths.flatten().collect()
 }
 
-/// Whether a formula about one state holds now; `None` for a temporal formula.
+/// Valuation of state formulas at a position; `None` for a temporal formula.
 pub type Holds<'a> = &'a dyn Fn(&Bound) -> Option<bool>;
 
-/// Replays a trace, and calls `at_end` at the end of each scan with its position and with what is recalled of the run.
+/// Replays a trace and calls `at_end` at the end of each scan with its position and the history of the run.
 ///
 /// # Errors
-/// The trace is not one of the system, or `at_end` finds that it does not show what it should.
+/// The trace is not one of the system, or `at_end` finds that it does not show the expected facts.
 pub fn replay_scans(
     system: &System,
     trace: &ScanTrace,
@@ -148,8 +148,8 @@ pub fn replay_scans(
     replay_lines(system, trace, |_, _, _| {}, at_end)
 }
 
-/// As [`replay_scans`], and calls `at_line` whenever control comes to a line, with the position of the scan, the run, and what is
-/// recalled of the scans before.
+/// As [`replay_scans`]; also calls `at_line` whenever control reaches a line, with the position of the scan, the
+/// replay, and the history of the scans before.
 ///
 /// # Errors
 /// As for [`replay_scans`].
@@ -174,24 +174,24 @@ pub fn replay_lines(
     })
 }
 
-/// What happens while a trace is replayed.
+/// Event of a replay.
 pub enum Event {
     /// The inputs have been copied; the program begins.
     Begins,
-    /// Control has come to a line in the scan at this position.
+    /// Control has reached a line in the scan at this position.
     AtLine(usize),
     /// A transition has fired.
     Fired(TransitionId),
-    /// The scan at this position has come to its end.
+    /// The scan at this position has reached its end.
     AtEnd(usize),
-    /// The scan is over: the plant may move, or the scan never ends.
+    /// The scan is over, or never ends.
     Ended,
 }
 
-/// Who is told what happens.
+/// Listener for events of a replay.
 type Seen<'a> = &'a mut dyn FnMut(Event, &Replay<'_>) -> Result<(), Disagreement>;
 
-/// Replays a trace, and tells what happens.
+/// Replays a trace and reports its events.
 pub fn play_scans(system: &System, trace: &ScanTrace, seen: Seen<'_>) -> Result<(), Disagreement> {
     let mut replay = Replay::new(system);
     let end_place = PlaceRole::Line(system.program.end());
@@ -234,7 +234,7 @@ pub fn play_scans(system: &System, trace: &ScanTrace, seen: Seen<'_>) -> Result<
         fire(&mut replay, seen, &|role| role == TransitionRole::Unblock).map_err(in_scan)?;
         seen(Event::Ended, &replay)?;
     }
-    // Both ends have been compared with the net, so they are the same if they say the same.
+    // Both ends have been compared with the net, so equal ends mean equal states.
     let end = |position: usize| trace.scans.get(position).map(|scan| &scan.end);
     match trace.loop_start {
         Some(start) if start + 1 >= trace.scans.len() || end(start) != end(trace.scans.len() - 1) => {
@@ -244,12 +244,12 @@ pub fn play_scans(system: &System, trace: &ScanTrace, seen: Seen<'_>) -> Result<
     }
 }
 
-/// Markings of a scan, of which one that comes again shows that the scan never ends.
+/// Markings seen in a scan; one that recurs shows that the scan never ends.
 enum Met {
-    /// All of them: the scan is told as far as the first that comes again.
+    /// Every marking: the trace stops at the first that recurs.
     All(BTreeSet<Marking>),
-    /// One of them, after a power of two lines a later one. Of a cycle that is met, one is kept sooner or later (R. P. Brent, An
-    /// improved Monte Carlo factorization algorithm, BIT 20, 1980).
+    /// One marking, replaced after each power of two lines. Once in a cycle, one of its markings is eventually kept (R.
+    /// P. Brent, An improved Monte Carlo factorization algorithm, BIT 20, 1980).
     One { kept: Option<Marking>, steps: u64 },
 }
 
@@ -264,7 +264,7 @@ impl Met {
             Self::One { kept, steps } => {
                 let is_new = kept.as_ref() != Some(marking);
                 *steps += 1;
-                // The first is kept late: most scans are short.
+                // The first marking is kept late: most scans are short.
                 if *steps >= 1024 && steps.is_power_of_two() {
                     *kept = Some(marking.clone());
                 }
@@ -274,13 +274,13 @@ impl Met {
     }
 }
 
-/// Fires the one enabled transition among those of these roles.
+/// Fires the only enabled transition among those with these roles, and reports it.
 fn fire(replay: &mut Replay<'_>, seen: Seen<'_>, of: &dyn Fn(TransitionRole) -> bool) -> Result<(), Disagreement> {
     let transition = replay.fire_only(of)?;
     seen(Event::Fired(transition), replay)
 }
 
-/// The search's end state against the net's.
+/// Compares the final state found by the search with the net.
 fn compare(system: &System, replay: &Replay<'_>, end: &ScanState) -> Result<(), Disagreement> {
     let memory = replay.memory();
     if let Some(variable) = system.program.declared().find(|id| memory[id.0] != end.memory[id.0]) {

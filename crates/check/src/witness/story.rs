@@ -1,5 +1,5 @@
-//! Scans told instruction by instruction, as data: what fired, what each instruction gave and wrote. Every form of a report
-//! that goes into a scan tells it from here.
+//! Runs as data, instruction by instruction: firings, results and writes. Source of every report form that shows the
+//! inside of a scan.
 
 use super::firing_trace::{FiringTrace, replay_firings};
 use super::replay::{Disagreement, Replay};
@@ -9,38 +9,38 @@ use petril_lang::flat::{Hazard, Instruction, Target};
 use petril_lang::semantics::{Type, VarId};
 use petril_net::net::TransitionId;
 
-/// An instruction that was executed, on the net and by the interpreter.
+/// Instruction executed on the net and by the interpreter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Executed {
-    /// The line of flat code, from 0.
+    /// Line of flat code, from 0.
     pub line: usize,
-    /// The current result after it, as a pattern of its type.
+    /// Current result after the instruction, as a bit pattern of its type.
     pub result: u64,
-    /// The type of the current result.
+    /// Type of the current result.
     pub ty: Type,
-    /// The variable it wrote, with the value it left there.
+    /// Variable written, with its new value.
     pub writes: Option<(VarId, u64)>,
-    /// Whether the variable had another value before.
+    /// Whether the value differs from the one before.
     pub changes: bool,
-    /// The hazard it met.
+    /// Hazard met.
     pub hazard: Option<Hazard>,
-    /// The transitions that fired, in the order of time.
+    /// Transitions fired, in chronological order.
     pub firings: Vec<TransitionId>,
 }
 
-/// A scan.
+/// A scan, instruction by instruction.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ToldScan {
-    /// What fired before the program began: the plant's transitions, `block`, the copying of inputs.
+    /// Transitions fired before the program began: the plant's, `block`, the copying of inputs.
     pub opening: Vec<TransitionId>,
-    /// The instructions.
+    /// Instructions executed.
     pub instructions: Vec<Executed>,
-    /// What fired after the program: `unblock`. Nothing if the scan does not end.
+    /// Transitions fired after the program: `unblock`. Empty if the scan does not end.
     pub closing: Vec<TransitionId>,
 }
 
-/// Tells the scans of a run from position `from` on; nothing if that takes more than `limit` instructions. A scan that never
-/// ends is told until its state repeats, one that meets an error that ends it until then.
+/// Lists the scans of a run from position `from` on; `None` if there are more than `limit` instructions. A scan that
+/// never ends is listed until its state repeats, one ended by an error up to the error.
 ///
 /// # Errors
 /// The trace is not one of the system.
@@ -78,18 +78,18 @@ pub fn story(
     }
 }
 
-/// A firing of the transition view, and what it did to the program.
+/// A firing of the transition view with its effect on the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ToldFiring {
-    /// The transition.
+    /// Transition fired.
     pub transition: TransitionId,
-    /// The instruction, if this was its last step.
+    /// Instruction completed by the firing, if any.
     pub executed: Option<Executed>,
-    /// The input a bit of which was copied, with its value then.
+    /// Input of which a bit was copied, with its value then.
     pub copied: Option<(VarId, u64)>,
 }
 
-/// Tells a firing sequence.
+/// Lists a firing sequence.
 ///
 /// # Errors
 /// The trace is not one of the system.
@@ -115,10 +115,10 @@ pub fn firing_story(system: &System, trace: &FiringTrace) -> Result<Vec<ToldFiri
     Ok(told)
 }
 
-/// Gathers firings to instructions.
+/// Groups firings by instruction.
 struct Teller<'s> {
     system: &'s System,
-    /// The values before the instruction that is being executed.
+    /// Values before the current instruction.
     memory: Vec<u64>,
     ty: Type,
     hazards: usize,
@@ -132,7 +132,7 @@ impl<'s> Teller<'s> {
         Self { system, memory, ty: Type::BOOL, hazards: 0, firings, scan: ToldScan::default() }
     }
 
-    /// The program is about to begin.
+    /// Starts the program of a scan.
     fn begin(&mut self, replay: &Replay<'_>) {
         self.memory = replay.memory();
         self.hazards = 0;
@@ -144,7 +144,7 @@ impl<'s> Teller<'s> {
         std::mem::take(&mut self.scan)
     }
 
-    /// A transition has fired. Gives the instruction if it was the last step of one.
+    /// Records a firing; returns the instruction it completes, if any.
     fn fired(&mut self, transition: TransitionId, replay: &Replay<'_>) -> Option<Executed> {
         self.firings.push(transition);
         let TransitionRole::Line(line) = self.system.transitions[transition.index()] else { return None };

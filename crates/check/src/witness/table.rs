@@ -4,7 +4,7 @@ use std::fmt;
 
 use petril_base::printable;
 
-/// A column: its head, and the side its cells lean to.
+/// A column: head and alignment.
 #[derive(Clone, Debug)]
 pub struct Column {
     head: String,
@@ -12,12 +12,12 @@ pub struct Column {
 }
 
 impl Column {
-    /// A column of values.
+    /// Right-aligned column, for values.
     pub fn right(head: impl Into<String>) -> Self {
         Self { head: printable::line(&head.into()), left: false }
     }
 
-    /// A column of text.
+    /// Left-aligned column, for text.
     pub fn left(head: impl Into<String>) -> Self {
         Self { head: printable::line(&head.into()), left: true }
     }
@@ -27,7 +27,7 @@ impl Column {
     }
 }
 
-/// A table: groups of columns, separated by a bar, and rows of cells.
+/// Table: groups of columns, separated by a bar, and rows of cells.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     groups: Vec<Vec<Column>>,
@@ -37,20 +37,20 @@ pub struct Table {
 /// A row of a table.
 #[derive(Clone, Debug)]
 enum Row {
-    /// One cell for each column.
+    /// Row with one cell per column.
     Cells(Vec<String>),
-    /// A text across all columns.
+    /// Text across all columns.
     Across(String),
 }
 
 impl Table {
-    /// A table with these groups of columns; groups without columns are left out.
+    /// Creates a table with these groups of columns; groups without columns are left out.
     #[must_use]
     pub fn new(groups: Vec<Vec<Column>>) -> Self {
         Self { groups: groups.into_iter().filter(|group| !group.is_empty()).collect(), rows: Vec::new() }
     }
 
-    /// Adds a row: one cell for each column. Each is one line of printable text, whatever is in it.
+    /// Adds a row of one cell per column. Each cell is made one line of printable text.
     pub fn row(&mut self, cells: &[String]) {
         self.rows.push(Row::Cells(cells.iter().map(|cell| printable::line(cell)).collect()));
     }
@@ -60,8 +60,8 @@ impl Table {
         self.rows.push(Row::Across(printable::line(text)));
     }
 
-    /// The table in blocks of columns that fit into so many characters, if they can: below each other, each with the first group of
-    /// columns, an empty line between them.
+    /// The table in blocks of columns that fit into `width` characters where possible: one below another, separated by
+    /// an empty line, each with the first group of columns.
     #[must_use]
     pub fn within(&self, width: usize) -> String {
         let widths = self.widths();
@@ -91,7 +91,7 @@ impl Table {
         if texts.is_empty() { self.block(&widths, width, &|_| true) } else { texts.join("\n") }
     }
 
-    /// How wide each column is.
+    /// Width of each column, in characters.
     fn widths(&self) -> Vec<usize> {
         let heads = self.groups.iter().flatten().map(|column| column.head.as_str());
         let width = |(i, head): (usize, &str)| {
@@ -104,7 +104,7 @@ impl Table {
         heads.enumerate().map(width).collect()
     }
 
-    /// Some columns of the table. Texts across it are broken where the line has `width` characters.
+    /// Block of some columns. Texts across the table are wrapped at `width` characters.
     fn block(&self, widths: &[usize], width: usize, shown: &dyn Fn(usize) -> bool) -> String {
         let mut text = self.line(widths, shown, " | ", |_, column| column.head.clone());
         text += &self.line(widths, shown, "-+-", |i, _| "-".repeat(widths[i]));
@@ -117,7 +117,7 @@ impl Table {
         text
     }
 
-    /// Sets the cells of a row, group by group.
+    /// Joins the cells of a row, group by group.
     fn line(
         &self,
         widths: &[usize],
@@ -145,7 +145,7 @@ impl fmt::Display for Table {
     }
 }
 
-/// A text in lines of at most `width` characters, as far as its words allow; all but the first are indented.
+/// Wraps a text at words into lines of at most `width` characters; continuation lines are indented.
 fn broken(text: &str, width: usize) -> String {
     const HANG: usize = 4;
     let (mut out, mut used) = (String::new(), 0);

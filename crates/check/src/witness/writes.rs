@@ -1,4 +1,4 @@
-//! Who wrote a value last: the instruction, and the scan.
+//! Last write to each variable: the instruction, and the scan.
 
 use super::scan_trace::ScanTrace;
 use crate::translate::System;
@@ -6,25 +6,25 @@ use petril_lang::flat::{Instruction, Target};
 use petril_lang::interpret::Machine;
 use petril_lang::semantics::VarId;
 
-/// A variable was written.
+/// Write to a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Write {
-    /// The value it got, as a pattern of its type.
+    /// Value written, as a bit pattern of the variable's type.
     pub value: u64,
-    /// The position of the scan in the run.
+    /// Position of the scan in the run.
     pub scan: usize,
-    /// The line of flat code, from 0.
+    /// Line of flat code, from 0.
     pub line: usize,
 }
 
-/// For each variable, the instruction that wrote it last until the end of a scan of a run that has been replayed, even if it had that
-/// value already. A set or reset that does not act writes nothing; nor is the copying of inputs an instruction.
+/// Last write to each variable up to the end of scan `until` of a replayed run, whether or not it changed the value. A
+/// set or reset that does not act is not a write, and neither is the copying of inputs.
 #[must_use]
 pub fn last_writes(system: &System, trace: &ScanTrace, until: usize) -> Vec<Option<Write>> {
     let program = &system.program;
     let mut writes = vec![None; program.variables.len()];
     let mut machine = Machine::new(program);
-    // The replay has seen these scans end.
+    // The replay has shown that these scans end.
     let ending = trace.scans.iter().take_while(|scan| scan.end.is_some());
     for (scan, told) in ending.enumerate().take(until + 1) {
         told.inputs.iter().for_each(|&(input, value)| machine.set(input, value));
@@ -41,7 +41,7 @@ pub fn last_writes(system: &System, trace: &ScanTrace, until: usize) -> Vec<Opti
     writes
 }
 
-/// What the machine is about to write.
+/// Variable that the instruction at hand is about to write.
 fn written(machine: &Machine<'_>, instruction: Instruction) -> Option<VarId> {
     let acts = match instruction {
         Instruction::Set(_) | Instruction::Reset(_) => machine.result() & 1 == 1,

@@ -29,7 +29,7 @@ use super::escape::{APART, Alphabet, escaped};
 use crate::net::Net;
 use petril_base::to_text;
 
-/// Words of nets, of the functions of stochastic nets, and of the tools' formulas; in small letters.
+/// Keywords of nets, of the functions of stochastic nets, and of the tools' formulas, in lower case.
 const RESERVED: [&str; 62] = [
     "abs",
     "acos",
@@ -95,7 +95,7 @@ const RESERVED: [&str; 62] = [
     "xspn",
 ];
 
-/// ANDL's names. All words of one or two capital letters are left to the operators of temporal logic.
+/// Names in ANDL. Words of one or two capital letters are reserved for temporal operators.
 pub(super) const NAMES: Alphabet = Alphabet {
     allows: |c| c.is_ascii_alphanumeric() || c == '_',
     begins: |c| c.is_ascii_alphabetic(),
@@ -105,11 +105,11 @@ pub(super) const NAMES: Alphabet = Alphabet {
     },
 };
 
-/// Writes a net, a read arc as a loop. A transition with the name of a place is told apart by `_x_` behind it: names are
-/// unique among all nodes.
+/// Writes a net; a read arc becomes a loop. A transition that shares its name with a place gets the suffix `_x_`: names
+/// are unique among all nodes.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "pn [{}]\n{{\nplaces:\ndiscrete:", escaped(net.name(), NAMES))?;
     let places: Vec<String> = net.places().map(|place| escaped(place.name, NAMES)).collect();
@@ -131,7 +131,7 @@ pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "}}")
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net) -> String {
     to_text(|out| write_to(net, out))

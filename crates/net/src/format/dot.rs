@@ -6,8 +6,8 @@ use crate::net::Net;
 use petril_base::printable;
 use petril_base::to_text;
 
-/// Writes a net: places as circles, the marked ones with a token, transitions as boxes. The head of a read arc is a dot, as
-/// in the seed paper's figure 2.
+/// Writes a net: places as circles, with their tokens, and transitions as boxes. The head of a read arc is a dot, as in
+/// the seed paper's figure 2.
 ///
 /// ```
 /// use petril_base::source::Source;
@@ -33,7 +33,7 @@ use petril_base::to_text;
 /// ```
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "digraph \"{}\" {{", escaped(net.name()))?;
     writeln!(out, "  node [fontname=\"Helvetica\", fontsize=10];")?;
@@ -66,13 +66,14 @@ pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "}}")
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net) -> String {
     to_text(|out| write_to(net, out))
 }
 
-/// A text on one line inside the quotes of a DOT string. A backslash would begin one of its escapes, an ampersand one of HTML's.
+/// Escapes a text for a quoted DOT string, on one line. A backslash would begin a DOT escape, an ampersand an HTML
+/// entity.
 fn escaped(text: &str) -> String {
     let replace = |c: char| match c {
         '\\' => "\\\\".to_owned(),

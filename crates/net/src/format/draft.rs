@@ -1,4 +1,4 @@
-//! A net as its file has it, before its nodes have ids.
+//! Net under construction, as read from a file, before its nodes have ids.
 
 use std::path::Path;
 
@@ -6,21 +6,21 @@ use crate::net::{Builder, Located, PlaceId, Units};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{ShortSpan, Source, Span};
 
-/// The most tokens a place may begin with, and the greatest weight: sums of many are still numbers.
+/// Upper bound on initial tokens and on weights, so that sums of many still fit.
 pub const MAX_COUNT: u64 = 1 << 40;
 
-/// Places and transitions in the order of the file, and the arcs in any.
+/// Places and transitions in file order, and arcs in any order.
 #[derive(Default)]
 pub struct Draft {
     pub places: Vec<DraftPlace>,
     pub transitions: Vec<DraftTransition>,
     arcs: Vec<Arc>,
-    /// The places that are used and not declared, by position.
+    /// Places that are used but not declared, by position.
     pub undeclared: Vec<usize>,
-    /// The ids of both in the file, if the format has ids.
+    /// Ids of places and transitions in the file, if the format has ids.
     pub ids: Option<(Vec<String>, Vec<String>)>,
     pub units: Option<Units>,
-    /// What no safe net has.
+    /// Diagnostics of what a safe net cannot have.
     pub not_safe: Vec<Diagnostic>,
     pub warnings: Vec<Diagnostic>,
 }
@@ -36,7 +36,7 @@ pub struct DraftTransition {
     pub span: Span,
 }
 
-/// What an arc does to its place.
+/// Effect of an arc on its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Direction {
     Consume,
@@ -44,7 +44,7 @@ pub enum Direction {
     Read,
 }
 
-/// An arc, in little memory: a file may have millions.
+/// Arc in a compact form: a file may have millions.
 #[derive(Clone, Copy)]
 struct Arc {
     transition: u32,
@@ -55,7 +55,7 @@ struct Arc {
 }
 
 impl Draft {
-    /// Notes something that no safe net has.
+    /// Records something that a safe net cannot have.
     pub fn refuse(&mut self, span: Span, message: String, help: &str) {
         self.not_safe.push(Diagnostic::new(Code::NetNotOrdinary, span, message).help(help));
     }
@@ -66,7 +66,7 @@ impl Draft {
         self.arcs.push(Arc { transition, place, weight, span: span.into(), direction });
     }
 
-    /// Notes which arcs are drawn twice: together they have the weight 2. The arcs are in order.
+    /// Reports parallel arcs: together they have weight 2. The arcs are sorted.
     fn parallel_arcs(&mut self) {
         let key = |arc: &Arc| (arc.transition, arc.direction, arc.place);
         for pair in self.arcs.windows(2).filter(|pair| key(&pair[0]) == key(&pair[1])) {
@@ -82,7 +82,7 @@ impl Draft {
         }
     }
 
-    /// The net, with the spans of its nodes, unless there are errors.
+    /// Builds the net, with the spans of its nodes, unless there are errors.
     pub fn finish(mut self, name: impl FnOnce() -> String, errors: Vec<Diagnostic>) -> Result<Located, Trouble> {
         self.arcs.sort_unstable_by_key(|arc| (arc.transition, arc.direction, arc.place, arc.span));
         self.parallel_arcs();
@@ -118,10 +118,10 @@ impl Draft {
     }
 }
 
-/// Why a file holds no net.
+/// Diagnostics of a file that contains no valid net.
 pub struct Trouble {
     errors: Vec<Diagnostic>,
-    /// What no safe net has, as far as the file could be read.
+    /// Diagnostics of what a safe net cannot have, as far as the file could be read.
     not_safe: Vec<Diagnostic>,
 }
 
@@ -132,20 +132,20 @@ impl From<Vec<Diagnostic>> for Trouble {
 }
 
 impl Trouble {
-    /// The errors, in the order of the text.
+    /// Errors, in the order of the text.
     pub fn errors(mut self) -> Vec<Diagnostic> {
         self.errors.sort_by_key(Diagnostic::span);
         self.errors
     }
 
-    /// These, and what no safe net has.
+    /// Errors, and what a safe net cannot have.
     pub fn all(mut self) -> Vec<Diagnostic> {
         self.errors.append(&mut self.not_safe);
         self.errors()
     }
 }
 
-/// The name of a net whose file gives it none: the file's, without folder and extension.
+/// Default name of a net: its file name without folder and extension.
 pub fn file_stem(source: &Source) -> String {
     let stem = Path::new(source.name()).file_stem();
     stem.map_or_else(|| source.name().to_owned(), |stem| stem.to_string_lossy().into_owned())

@@ -1,25 +1,25 @@
-//! Names in formats that have fewer characters than nets: an escape that can be undone.
+//! Reversible escaping of names for formats with fewer characters.
 //!
-//! A character that cannot stand in a name is written `_x`, its number in hexadecimal, `_`; so is the first letter of a word
-//! that means something else there. `_` itself is written so where an `x` follows, so that every `_x` begins an escape. `_x_`
-//! means nothing: it is the empty name, and tells apart two nodes of the same name.
+//! A character that cannot be part of a name is written `_x`, its code in hexadecimal, `_`; so is the first letter of a
+//! reserved word. `_` itself is escaped before an `x`, so that every `_x` begins an escape. `_x_` is empty: it stands
+//! for the empty name, and distinguishes two nodes of the same name.
 //!
 //! `S1=0` becomes `S1_x3D_0`, and `a_x` becomes `a_x5F_x`.
 
 use std::fmt::Write as _;
 
-/// What names a format has.
+/// Characters and reserved words of a format's names.
 #[derive(Clone, Copy)]
 pub struct Alphabet {
-    /// Whether a character can stand in a name. `_`, `x` and the digits of hexadecimal numbers always can.
+    /// Whether a character is allowed in a name. `_`, `x` and hexadecimal digits always are.
     pub allows: fn(char) -> bool,
-    /// Whether a character can stand at the beginning of a name. `_` always can.
+    /// Whether a character is allowed at the beginning of a name. `_` always is.
     pub begins: fn(char) -> bool,
-    /// Whether a name means something else.
+    /// Whether a name is reserved.
     pub is_reserved: fn(&str) -> bool,
 }
 
-/// A name in a format. Different names stay different.
+/// Escapes a name. Different names stay different.
 pub fn escaped(name: &str, alphabet: Alphabet) -> String {
     let mut text = String::with_capacity(name.len());
     let is_reserved = (alphabet.is_reserved)(name);
@@ -37,16 +37,16 @@ pub fn escaped(name: &str, alphabet: Alphabet) -> String {
     if text.is_empty() { APART.to_owned() } else { text }
 }
 
-/// What means nothing in an escaped name.
+/// Suffix without meaning in an escaped name.
 pub const APART: &str = "_x_";
 
-/// The name that an escaped one stands for; `None` if it is none.
+/// Original of an escaped name; `None` if the text is not one.
 #[must_use]
 pub fn unescaped(text: &str) -> Option<String> {
     let mut name = String::with_capacity(text.len());
     let mut rest = text;
     while let Some((before, escape)) = rest.split_once("_x") {
-        // An escape ends with a `_` that begins no other.
+        // An escape ends with a `_` that does not begin another.
         let (number, behind) = escape.split_once('_')?;
         name += before;
         if !number.is_empty() {

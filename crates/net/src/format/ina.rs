@@ -37,17 +37,17 @@ use petril_base::Rows;
 use petril_base::printable::is_printable;
 use petril_base::to_text;
 
-/// The longest name.
+/// Length limit of names.
 const LONGEST: usize = 16;
 
-/// Names in full, which INA does not read: anything that stays on its line.
+/// Names in full, which INA does not read: any text on one line.
 const LINE: Alphabet = Alphabet { allows: is_printable, begins: is_printable, is_reserved: |_| false };
 
-/// Writes a net, a read arc as a loop. A name that is too long or has characters that cannot be is shortened to one no other
-/// node has; such names stand in full behind the net, where INA does not look.
+/// Writes a net; a read arc becomes a loop. A name that is too long or has forbidden characters is shortened to a
+/// unique one; such names follow in full after the net, where INA does not look.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     let by_place =
         |transition: TransitionId| move |(place, weight): (PlaceId, u64)| (place.index(), (transition.index(), weight));
@@ -86,7 +86,7 @@ pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     Ok(())
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net) -> String {
     to_text(|out| write_to(net, out))
@@ -102,13 +102,13 @@ fn arcs(out: &mut dyn io::Write, arcs: &[(usize, u64)]) -> io::Result<()> {
     Ok(())
 }
 
-/// A name as INA can have it, of any length.
+/// A name with INA's characters, of any length.
 fn plain(name: &str) -> String {
     let plain = |c: char| if c.is_ascii_graphic() && !":,@".contains(c) { c } else { '_' };
     name.chars().map(plain).collect()
 }
 
-/// A name for each node that no other has.
+/// Unique short names of nodes.
 fn short_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
     let mut taken = HashSet::new();
     let mut count = 1_u64;

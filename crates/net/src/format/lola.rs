@@ -22,7 +22,7 @@ use super::escape::{Alphabet, escaped};
 use crate::net::{Net, PlaceId};
 use petril_base::to_text;
 
-/// Words of nets, and of formulas, which call nodes by the same names.
+/// Keywords of nets, and of formulas, which use the same names for nodes.
 const RESERVED: [&str; 31] = [
     "ALLPATH",
     "ALWAYS",
@@ -57,7 +57,7 @@ const RESERVED: [&str; 31] = [
     "oo",
 ];
 
-/// LoLA's names: no blanks and none of `, ; : ( ) { }`; nothing that begins like a number, an operator or a comment.
+/// Names in LoLA: no blanks and none of `, ; : ( ) { }`; no prefix of a number, operator or comment.
 pub(super) const NAMES: Alphabet = Alphabet {
     allows: |c| c.is_ascii_graphic() && !",;:(){}/*\"".contains(c),
     begins: |c| c.is_ascii_alphabetic() || c == '_',
@@ -65,13 +65,13 @@ pub(super) const NAMES: Alphabet = Alphabet {
     is_reserved: |name| RESERVED.contains(&name) || name.chars().all(|c| "AGEFXUR".contains(c)),
 };
 
-/// Writes a net, a read arc as a loop. `is_safe` says that it is known to have one token a place at most, which LoLA makes
-/// use of.
+/// Writes a net; a read arc becomes a loop. `is_safe` states that the net is known to be safe (1-bounded), which LoLA
+/// exploits.
 ///
-/// LoLA asks for at least one place and one transition.
+/// LoLA requires at least one place and one transition.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, is_safe: bool, out: &mut dyn io::Write) -> io::Result<()> {
     let name = |place: PlaceId| escaped(net.place(place).name, NAMES);
     write!(out, "PLACE {}", if is_safe { "SAFE 1: " } else { "" })?;
@@ -88,7 +88,7 @@ pub fn write_to(net: &Net, is_safe: bool, out: &mut dyn io::Write) -> io::Result
     Ok(())
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net, is_safe: bool) -> String {
     to_text(|out| write_to(net, is_safe, out))

@@ -1,4 +1,4 @@
-//! The traces of TAPAAL and its engine verifypn: the transitions in the order of firing, each with the tokens it takes.
+//! Traces of TAPAAL and its engine verifypn: transitions in the order of firing, each with the tokens it consumes.
 //!
 //! ```
 //! use petril_base::source::Source;
@@ -26,15 +26,15 @@ use quick_xml::escape::escape;
 use crate::net::{Net, TransitionId};
 use petril_base::printable;
 
-/// The most tokens a trace may tell of: each is an element of its own.
+/// Upper bound on the tokens of a trace: each is an element of its own.
 const MAX_TOKENS: u64 = 10_000_000;
 
-/// The transitions of a trace take too many tokens to be told one by one.
+/// Error: the transitions of a trace consume too many tokens to list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyTokens;
 
-/// A firing sequence of a net whose nodes have these ids, those of places first; their names if there are none. `loop_start` is
-/// the number of firings after which a run without end comes back to the same marking.
+/// Writes a firing sequence of a net, with these ids of places and transitions, or else their names. For a lasso,
+/// `loop_start` is the number of firings before the marking that the last firing returns to.
 ///
 /// # Errors
 /// [`TooManyTokens`] beyond ten million.

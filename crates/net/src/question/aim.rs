@@ -1,14 +1,14 @@
-//! A formula about one state as the goal of a search.
+//! Translation of a state formula into a goal of a reachability search.
 
 use super::linear::Linear;
 use crate::Goal;
 use petril_logic::{Bound, Comparison};
 
-/// Parts a goal may have. Equivalences multiply them.
+/// Upper bound on the size of a goal. Equivalences duplicate their operands.
 const MOST_PARTS: usize = 10_000;
 
-/// The goal that the formula is true, or that it is false. Nothing if the formula is temporal, speaks of variables, or is not
-/// linear.
+/// Translates "the formula is true" (or false) into a goal; `None` if the formula is temporal, mentions variables, or
+/// is not linear.
 pub(super) fn aim(formula: &Bound, truth: bool) -> Option<Goal> {
     let mut left = MOST_PARTS;
     goal(formula, truth, &mut left)
@@ -39,7 +39,7 @@ fn goal(formula: &Bound, truth: bool, left: &mut usize) -> Option<Goal> {
     })
 }
 
-/// The goal that a sum compares so with 0.
+/// The goal that a linear term compares with 0 in this way.
 fn compare(comparison: Comparison, sum: Linear) -> Option<Goal> {
     let Linear { terms, number } = sum;
     let least = |more: i128| Some(Goal::AtLeast { terms: terms.clone(), least: more.checked_sub(number)? });

@@ -1,4 +1,4 @@
-//! Where formulas about one state hold: one pass over all states for all of them, on all processors.
+//! State formulas evaluated on all explored states in one parallel pass.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,7 +11,7 @@ use crate::net::{PlaceId, TransitionId};
 use petril_base::VarId;
 use petril_logic::{Bound, Dag, Node, Valuation};
 
-/// Some formulas about one state, each with the states where it holds.
+/// Atomic propositions with the sets of states that satisfy them.
 pub(super) struct Atoms<'d> {
     formulas: Vec<&'d Bound>,
     sets: Vec<FixedBitSet>,
@@ -19,11 +19,11 @@ pub(super) struct Atoms<'d> {
 
 const BITS: usize = usize::BITS as usize;
 
-/// Words of each set that one thread computes at a time.
+/// Words of each bit set that one thread computes at a time.
 const BLOCK: usize = 128;
 
 impl<'d> Atoms<'d> {
-    /// All those that the dags have. Nothing if `stopping` is set meanwhile.
+    /// Evaluates all state formulas of the DAGs; `None` if `stopping` is set meanwhile.
     pub(super) fn of(
         exploration: &Exploration,
         dags: impl Iterator<Item = &'d Dag>,
@@ -68,7 +68,8 @@ impl<'d> Atoms<'d> {
         Some(Self { formulas, sets })
     }
 
-    /// The states where a formula holds, or its negation, with room for so many. It holds in no others.
+    /// Set of states that satisfy a formula or its negation, with capacity `room`; the states beyond those kept are not
+    /// in it.
     pub(super) fn holding(&self, formula: &Bound, negated: bool, room: usize) -> FixedBitSet {
         let known = self.formulas.iter().position(|known| *known == formula);
         let mut set = known.map_or_else(FixedBitSet::new, |position| self.sets[position].clone());
@@ -80,7 +81,7 @@ impl<'d> Atoms<'d> {
     }
 }
 
-/// For each formula the words that say where it holds among some states.
+/// Truth values of each formula on a range of states, packed into words.
 fn truths(
     exploration: &Exploration,
     formulas: &[&Bound],
@@ -104,7 +105,7 @@ fn truths(
     truths
 }
 
-/// A state whose tokens, as far as they are asked for, have been unpacked.
+/// A state whose token counts, as far as needed, have been unpacked.
 struct Unpacked<'v> {
     tokens: &'v [u64],
     view: &'v View<'v>,

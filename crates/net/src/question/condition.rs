@@ -1,18 +1,18 @@
-//! Formulas about one state, made ready to be evaluated in millions of them.
+//! State formulas compiled for evaluation in millions of states.
 
 use super::linear::Linear;
 use crate::net::TransitionId;
 use petril_logic::{Bound, Comparison, Valuation};
 
-/// A formula about one state, where sums are lists.
+/// A state formula with its terms as linear sums.
 pub(super) enum Condition<'f> {
     Enabled(TransitionId),
     Not(Box<Self>),
     And(Box<Self>, Box<Self>),
     Or(Box<Self>, Box<Self>),
-    /// A sum compares with 0.
+    /// Comparison of a linear sum with 0.
     Compare(Comparison, Linear),
-    /// As it is.
+    /// Formula that is evaluated as it is.
     Other(&'f Bound),
 }
 
@@ -31,7 +31,7 @@ impl<'f> Condition<'f> {
         }
     }
 
-    /// Whether it holds; `tokens` are those of the state, by place.
+    /// Evaluates the condition; `tokens` are the token counts of the state by place.
     pub(super) fn holds(&self, tokens: &[u64], state: &impl Valuation) -> bool {
         match self {
             Self::Enabled(transition) => state.is_enabled(*transition),

@@ -1,4 +1,4 @@
-//! Goals that the state equation excludes.
+//! Reachability goals excluded by the state equation (marking equation).
 
 use std::sync::atomic::AtomicBool;
 
@@ -6,11 +6,11 @@ use crate::Goal;
 use crate::net::{Net, PlaceId, TransitionId};
 use crate::structure::state_equation::{Constraint, Outcome, Problem, Relation};
 
-/// Linear programs for one goal at most.
+/// Upper bound on the number of linear programs per goal.
 const PROGRAMS: usize = 40;
 
-/// Whether no marking that the state equation allows has the goal, as far as that can be told in about so many steps. Whatever
-/// is not linear is left out, which only makes the goal easier to reach.
+/// Whether no solution of the state equation satisfies the goal, as far as about `steps` elementary steps can tell.
+/// Non-linear parts of the goal are dropped, which is an over-approximation.
 ///
 /// Once `stopping` is set, nothing more is excluded.
 pub(super) fn is_impossible(problem: &Problem<'_>, net: &Net, goal: &Goal, steps: u64, stopping: &AtomicBool) -> bool {
@@ -27,7 +27,7 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Whether goals together with constraints, and one of each list of choices, are impossible.
+    /// Whether the goals, the constraints, and one alternative of each choice are infeasible together.
     fn excludes<'g>(
         &mut self,
         mut goals: Vec<&'g Goal>,
@@ -50,7 +50,7 @@ impl Work<'_> {
                 Goal::Disabled(id) => choices.push(Choice::Disabled(*id)),
                 Goal::Any(parts) => choices.push(Choice::Goals(parts)),
                 Goal::All(parts) => goals.extend(parts),
-                // An enabled transition is a choice of all; that none is enabled, of too many.
+                // "Some transition is enabled" would be a choice among all; a deadlock, too many choices.
                 Goal::Truth(true) | Goal::Dead | Goal::Alive => {}
             }
         }
@@ -81,11 +81,11 @@ impl Work<'_> {
     }
 }
 
-/// Something of which one has to hold.
+/// Disjunction of which one alternative has to hold.
 #[derive(Clone, Copy)]
 enum Choice<'g> {
     Goals(&'g [Goal]),
-    /// One of the places of its preset has too few tokens.
+    /// Some place of the transition's preset has too few tokens.
     Disabled(u32),
 }
 
@@ -93,7 +93,7 @@ fn number(place: PlaceId) -> u32 {
     place.index() as u32
 }
 
-/// A comparison as a constraint, unless its numbers are too large for one.
+/// A comparison as a constraint; `None` without terms or if a number is too large.
 fn constraint(terms: &[(u32, i64)], least: i128) -> Option<Constraint> {
     if terms.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! Questions about a net as a whole, as the Model Checking Contest asks them.
+//! Global properties of a net, as examined in the Model Checking Contest.
 
 use super::replay::{Played, refuted, way};
 use super::{Branch, Question, Reply, Run};
@@ -7,27 +7,27 @@ use crate::net::{Net, PlaceId, TransitionId};
 use petril_logic::{Bound, Comparison, Quantifier, Term, Valuation};
 use petril_search::Stop;
 
-/// A question about a net as a whole.
+/// Global property of a net (examination of the contest).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Examination {
-    /// Whether a marking can be reached that enables nothing.
+    /// A deadlock is reachable.
     ReachabilityDeadlock,
-    /// Whether no place ever holds more than one token.
+    /// The net is safe (1-bounded): no place ever holds more than one token.
     OneSafe,
-    /// Whether there is a place whose tokens never change in number.
+    /// Some place has the same number of tokens in every reachable marking.
     StableMarking,
-    /// Whether every transition can fire.
+    /// Every transition is quasi-live: it can fire at least once.
     QuasiLiveness,
-    /// Whether every transition can fire again, whatever has fired.
+    /// The net is live: every transition can fire again from every reachable marking.
     Liveness,
 }
 
 impl Examination {
-    /// All of them.
+    /// All examinations.
     pub const ALL: [Self; 5] =
         [Self::ReachabilityDeadlock, Self::OneSafe, Self::StableMarking, Self::QuasiLiveness, Self::Liveness];
 
-    /// What the contest calls it.
+    /// Name of the examination in the contest.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -39,7 +39,7 @@ impl Examination {
         }
     }
 
-    /// The question it asks.
+    /// The examination as a question.
     #[must_use]
     pub fn question(self) -> Question {
         match self {
@@ -51,7 +51,7 @@ impl Examination {
         }
     }
 
-    /// What the figures of an exploration say, if that is enough.
+    /// Answer from the figures of an exploration, if they suffice.
     pub(super) fn reply(self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         if matches!(exploration.stop, Stop::Refused(_)) {
             return None;
@@ -86,7 +86,7 @@ impl Examination {
     }
 }
 
-/// `AG !enabled(t)`.
+/// The formula `AG !enabled(t)`: the transition is dead.
 pub(super) fn dead_for_ever(transition: TransitionId) -> Bound {
     always(Bound::Not(Box::new(Bound::Enabled(transition))))
 }
@@ -100,14 +100,14 @@ fn never_enabled(exploration: &Exploration) -> Vec<TransitionId> {
     exploration.figures.never_enabled.iter().map(|&transition| TransitionId::at(transition)).collect()
 }
 
-/// What holds from the beginning.
+/// A run without firings that claims these formulas of the initial marking.
 fn said(formulas: impl Iterator<Item = Bound>) -> Run {
     let branches = formulas.map(|formula| Branch { at: 0, formula, run: None });
     Run { branches: branches.collect(), ..Run::default() }
 }
 
-/// The reply "no" that a marking gives, from which on some formulas hold. The marking reached by the plain firing rule must
-/// pass a test.
+/// Answer "no" from a reached marking in which the formulas hold. The marking computed by the plain firing rule must
+/// pass the test.
 pub(super) fn shown_at(
     net: &Net,
     exploration: &Exploration,
@@ -126,7 +126,7 @@ pub(super) fn shown_at(
     }
 }
 
-/// One of the nearest markings in which a place has more than one token.
+/// Refutes safeness by one of the nearest markings with two tokens on a place.
 fn two_tokens(net: &Net, exploration: &Exploration) -> Option<Reply> {
     let (place, marking) = exploration.second_token()?;
     let place = PlaceId::at(place);
@@ -134,7 +134,7 @@ fn two_tokens(net: &Net, exploration: &Exploration) -> Option<Reply> {
     Some(shown_at(net, exploration, &marking, vec![claim], |played| played.tokens(place) > 1))
 }
 
-/// A place never changes if no transition that changes it can fire.
+/// Stable places: no transition that can fire changes their number of tokens.
 fn stable(net: &Net, exploration: &Exploration) -> Option<Reply> {
     let mut dead = vec![false; net.transitions().len()];
     exploration.figures.never_enabled.iter().for_each(|&transition| dead[transition] = true);

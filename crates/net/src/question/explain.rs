@@ -1,6 +1,6 @@
-//! Why a formula about paths holds at the beginning: a run, and runs that branch off it.
+//! Evidence for a branching-time formula at the initial marking: a run, with runs that branch off.
 //!
-//! What holds on some path is shown by that path. What holds on all paths is only stated, where it does.
+//! Existential subformulas are shown by a path. Universal subformulas are only stated where they hold.
 
 use fixedbitset::FixedBitSet;
 
@@ -10,25 +10,25 @@ use super::{Branch, Run};
 use crate::net::{Tokens, TransitionId};
 use petril_logic::{Dag, Labels, Node, NodeId, Quantifier, near_lasso, shortest};
 
-/// A run from the initial marking that shows a node, replayed by the plain firing rule with everything it claims of single
-/// markings; or what the replay has against it.
+/// Builds a run from the initial marking that shows a node, replayed by the plain firing rule with all claims about
+/// single markings; or the contradiction found by the replay.
 pub(super) fn explain(paths: &Paths<'_>, dag: &Dag, labels: &Labels, node: NodeId) -> Result<Option<Run>, String> {
     let teller = Teller { paths, dag, labels };
     let tale = teller.tale(node, 0);
     teller.replayed(&tale, &paths.net.initial_tokens()).map(Some)
 }
 
-/// A path through the graph.
+/// Path through the reachability graph with claims.
 #[derive(Default)]
 struct Tale {
     states: Vec<u32>,
-    /// For a path without end, the position to which the last state steps back.
+    /// For a lasso, the position that the last state steps back to.
     loop_start: Option<usize>,
-    /// Formulas about one state, and the positions at which they hold.
+    /// State formulas with the positions at which they hold.
     claims: Vec<(usize, NodeId)>,
-    /// Other formulas, the positions at which they hold, and why if a path shows that.
+    /// Temporal subformulas with their positions, and the path that shows an existential one.
     branches: Vec<(usize, NodeId, Option<Tale>)>,
-    /// Whether no step is left at the end.
+    /// Whether the path ends in a deadlock.
     is_dead: bool,
 }
 
@@ -57,7 +57,7 @@ impl Teller<'_> {
         self.labels.of(id).contains(state as usize)
     }
 
-    /// Goes on to show a node, which holds at the last state.
+    /// Extends the path to show a node, which holds at its last state.
     fn tell(&self, id: NodeId, tale: &mut Tale) {
         let state = tale.states[tale.states.len() - 1];
         match *self.dag.node(id) {
@@ -101,7 +101,7 @@ impl Teller<'_> {
         tale.branches.push((tale.states.len() - 1, id, why));
     }
 
-    /// Goes on through states, in all of which but the last the node holds.
+    /// Extends the path along states; the node holds at all of them but the last.
     fn walk(&self, id: NodeId, way: &[u32], tale: &mut Tale) {
         for &state in way {
             if self.is_local(id) {
@@ -111,12 +111,12 @@ impl Teller<'_> {
         }
     }
 
-    /// Goes on for ever, or to where no step is left, through states with the node that are within a set.
+    /// Extends the path by a lasso or to a deadlock, within a set of states that all satisfy the node.
     fn go_round(&self, id: NodeId, within: &FixedBitSet, tale: &mut Tale) {
         let knot = tale.states.len() - 1;
         let (graph, state) = (&self.paths.graph, tale.states[knot]);
         let Some(lasso) = near_lasso(graph, within, state) else {
-            // Nothing shows it, and the replay is to say so.
+            // No lasso was found; the claim of a deadlock lets the replay refute it.
             tale.is_dead = true;
             return;
         };
@@ -131,7 +131,7 @@ impl Teller<'_> {
         tale.is_dead = lasso.loop_start.is_none();
     }
 
-    /// The run of a path, played from a marking by the plain firing rule.
+    /// Replays a path from a marking by the plain firing rule.
     fn replayed(&self, tale: &Tale, from: &Tokens) -> Result<Run, String> {
         let net = self.paths.net;
         let targets = tale.states.iter().skip(1).copied().chain(tale.loop_start.map(|start| tale.states[start]));
@@ -160,7 +160,7 @@ impl Teller<'_> {
         Ok(Run { firings, loop_start: tale.loop_start, branches, is_shortest: false })
     }
 
-    /// The transition that leads from a marking to another, and that marking.
+    /// The transition that leads from a marking to another, and the marking it produces.
     fn step(&self, from: &Tokens, to: &[u64]) -> Option<(TransitionId, Tokens)> {
         let net = self.paths.net;
         net.transition_ids().filter(|&transition| net.has_concession(from, transition)).find_map(|transition| {
@@ -170,7 +170,7 @@ impl Teller<'_> {
         })
     }
 
-    /// Whether a marking shows a formula about one state.
+    /// Whether a marking satisfies a state formula.
     fn is_true(&self, id: NodeId, tokens: &Tokens) -> bool {
         match self.dag.node(id) {
             Node::State { formula, negated } => formula.holds_in(&Played(self.paths.net, tokens)) == Some(!*negated),

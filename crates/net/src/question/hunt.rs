@@ -1,4 +1,4 @@
-//! What is looked for in each state while a net is explored.
+//! Properties checked on the fly: evaluated in each state while the net is explored.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -13,35 +13,35 @@ use petril_base::VarId;
 use petril_logic::{Bound, Quantifier, Valuation};
 use petril_search::{Progress, Stop};
 
-/// What is looked for in each state.
+/// A property to check during an exploration.
 pub(super) enum Hunt<'q> {
-    /// A state that decides the question.
+    /// Reachability or invariance: one state decides it.
     Goal(Goal<'q>),
-    /// The most tokens.
+    /// Maximum number of tokens on places.
     Most(Most<'q>),
-    /// Nothing: the figures tell, or the graph.
+    /// Global property, decided by the figures or the graph.
     Whole(Examination),
-    /// Nothing: only the graph tells.
+    /// Branching-time formula, decided on the graph only.
     Paths(&'q Bound),
 }
 
-/// A state where the formula is true, for `EF`; or false, for `AG`.
+/// Reachability goal: a state where the formula is true (for `EF`) or false (for `AG`).
 pub(super) struct Goal<'q> {
-    /// A formula about one state.
+    /// State formula.
     pub(super) formula: &'q Bound,
-    /// Whether the question is `EF`.
+    /// Whether the property is `EF` (else `AG`).
     pub(super) is_existential: bool,
     is_found: AtomicBool,
     found: Mutex<Option<Vec<u64>>>,
 }
 
-/// The most tokens that places hold together.
+/// Maximum number of tokens that places hold together.
 pub(super) struct Most<'q> {
     places: &'q [PlaceId],
     tokens: AtomicU64,
 }
 
-/// Explores a net, and looks at each state for every hunt, until nothing more is looked for.
+/// Explores a net and evaluates every property in each state, until all are decided or a limit is met.
 pub(super) fn search(
     model: &Model,
     hunts: &[&Hunt<'_>],
@@ -52,7 +52,7 @@ pub(super) fn search(
     engine::explore(model, &options, watch, Some(&Hunts(hunts)))
 }
 
-/// All that is looked for at a time. The search may end when each of them is a goal, and found.
+/// Properties of one search. The search may end early only if each is a goal that has been found.
 struct Hunts<'h, 'q>(&'h [&'h Hunt<'q>]);
 
 impl Wanted for Hunts<'_, '_> {
@@ -75,7 +75,7 @@ impl<'q> Hunt<'q> {
         }
     }
 
-    /// For a formula as a whole.
+    /// The property of a whole formula: goal if it is `EF` or `AG` of a state formula.
     pub(super) fn of_formula(formula: &'q Bound) -> Self {
         let goal = |formula, is_existential| Self::Goal(Goal::of(formula, is_existential));
         match formula {
@@ -93,7 +93,7 @@ impl<'q> Hunt<'q> {
         }
     }
 
-    /// Whether the graph can tell more than the figures.
+    /// Whether the graph can decide more than the figures.
     pub(super) fn needs_the_graph(&self) -> bool {
         matches!(self, Self::Paths(_) | Self::Whole(Examination::Liveness))
     }
@@ -107,7 +107,7 @@ impl<'q> Hunt<'q> {
         }
     }
 
-    /// What a run says, which has been replayed then. It leads to the aim, or that is an error.
+    /// Answer from a run to the goal. The run is replayed first; a last marking that misses the goal is an error.
     pub(super) fn reached(&self, net: &Net, firings: Vec<TransitionId>, by: Means) -> Option<Reply> {
         let last = match last_marking(net, &firings) {
             Ok(last) => last,
@@ -124,7 +124,7 @@ impl<'q> Hunt<'q> {
         }
     }
 
-    /// What it means that the aim cannot be reached.
+    /// Answer if the goal is unreachable.
     pub(super) fn absent(&self) -> Option<Reply> {
         match self {
             Self::Goal(goal) if goal.is_existential => Some(Reply::Violated(None)),
@@ -142,7 +142,7 @@ impl<'q> Hunt<'q> {
         }
     }
 
-    /// What the exploration says, if that is enough.
+    /// Answer from an exploration, if it suffices.
     pub(super) fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         match self {
             Self::Whole(examination) => examination.reply(net, exploration),
@@ -156,7 +156,7 @@ impl<'q> Hunt<'q> {
         matches!(self, Self::Goal(goal) if goal.is_found())
     }
 
-    /// Forgets a state that will not be kept. The most tokens seen were seen all the same.
+    /// Forgets a state that will not be kept. A maximum stays: the marking was reached all the same.
     fn forget(&self) {
         if let Self::Goal(goal) = self {
             goal.forget();
@@ -190,14 +190,14 @@ impl<'q> Goal<'q> {
         }
     }
 
-    /// The reply that the state found gives, if one was.
+    /// Answer from the state found, if any.
     fn reply(&self, net: &Net, exploration: &Exploration) -> Option<Reply> {
         let shown = |(firings, last): (Vec<TransitionId>, Tokens)| self.shown_by(net, firings, &last, true);
         let found = self.found.lock().ok()?.clone()?;
         Some(way(net, exploration, &found).map_or_else(|what| refuted(&what), shown))
     }
 
-    /// The reply that a run to a marking gives.
+    /// Answer from a run to a marking.
     fn shown_by(&self, net: &Net, firings: Vec<TransitionId>, last: &Tokens, is_shortest: bool) -> Reply {
         if self.formula.holds_in(&Played(net, last)) != Some(self.is_existential) {
             return refuted("the last marking does not show it");

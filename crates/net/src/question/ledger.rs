@@ -1,12 +1,12 @@
-//! What is known so far: replies to the parts of questions, and so to the questions.
+//! Results so far: answers to the parts of questions, and so to the questions.
 
 use super::split::Split;
 use super::{Means, Reply};
 
-/// Told the number of a question, the answer, and what it rests on, as soon as that is known.
+/// Callback for an answer as soon as it is known: number of the question, answer, techniques.
 pub(super) type Tell<'t> = &'t mut (dyn FnMut(usize, &Reply, &[Means]) + 't);
 
-/// The questions, and the replies to their parts.
+/// The questions and the answers to their parts.
 pub(super) struct Ledger<'q, 't> {
     splits: Vec<Split<'q>>,
     replies: Vec<Option<Reply>>,
@@ -16,7 +16,7 @@ pub(super) struct Ledger<'q, 't> {
 }
 
 impl<'q, 't> Ledger<'q, 't> {
-    /// Nothing is known of so many parts yet.
+    /// Starts with no answer to any part.
     pub(super) fn new(splits: Vec<Split<'q>>, parts: usize, tell: Tell<'t>) -> Self {
         let is_told = vec![false; splits.len()];
         let mut ledger =
@@ -25,7 +25,7 @@ impl<'q, 't> Ledger<'q, 't> {
         ledger
     }
 
-    /// Notes the reply to a part.
+    /// Records the answer to a part.
     pub(super) fn put(&mut self, part: usize, reply: Reply, by: Means) {
         (self.replies[part], self.means[part]) = (Some(reply), by);
         self.tell();
@@ -42,7 +42,7 @@ impl<'q, 't> Ledger<'q, 't> {
         }
     }
 
-    /// The parts without a reply that an answer still depends on, ascending.
+    /// Unanswered parts that an open question still depends on, ascending.
     pub(super) fn open(&self) -> Vec<usize> {
         let mut open = Vec::new();
         for split in self.splits.iter().filter(|split| split.reply(&self.replies).is_none()) {
@@ -54,7 +54,7 @@ impl<'q, 't> Ledger<'q, 't> {
         open
     }
 
-    /// The answers, and what they rest on. Those not known are told now, with their own reason or this one.
+    /// Final answers with their techniques. Open questions are reported now, with their own reason or this one.
     pub(super) fn close(self, reason: &str) -> (Vec<Reply>, Vec<Vec<Means>>) {
         let Self { splits, replies, means, is_told, tell } = self;
         let answer = |(number, split): (usize, &Split<'_>)| {

@@ -1,15 +1,15 @@
-//! Terms that are sums of tokens.
+//! Linear terms over token counts.
 
 use petril_logic::Term;
 
-/// Tokens of places times numbers, and a number. The places ascend, and no factor is 0.
+/// Linear sum: token counts times factors, plus a number. Places ascend, and no factor is 0.
 pub(super) struct Linear {
     pub(super) terms: Vec<(u32, i64)>,
     pub(super) number: i128,
 }
 
 impl Linear {
-    /// One term minus another; nothing if that is not linear, or numbers become too large.
+    /// Difference of two terms; `None` if not linear, or if a number overflows.
     pub(super) fn difference(a: &Term, b: &Term) -> Option<Self> {
         let mut sum = Self { terms: Vec::new(), number: 0 };
         sum.add(a, 1)?;
@@ -50,7 +50,7 @@ impl Linear {
     }
 }
 
-/// The number that a term is in every state, if it has no places at all.
+/// Value of a constant term; `None` if it mentions a place.
 fn constant(term: &Term) -> Option<i128> {
     let mut sum = Linear { terms: Vec::new(), number: 0 };
     sum.add(term, 1)?;

@@ -1,5 +1,5 @@
-//! Liveness, from the strongly connected components that nothing leaves: a net of which every transition fires once is live if
-//! each of them has every transition.
+//! Liveness from the terminal strongly connected components: a net whose transitions are all quasi-live is live if
+//! every terminal component fires every transition.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -12,12 +12,13 @@ use crate::net::TransitionId;
 use petril_logic::{Valuation, leading_to};
 use petril_search::{Stop, components_until};
 
-/// Whether the net is live, as far as the states tell that. A transition that fires no more is shown where it was lost.
+/// Decides liveness as far as the explored states can. A transition that has died is shown at the nearest state where
+/// it has.
 pub(super) fn live(paths: &Paths<'_>, stopping: &AtomicBool) -> Option<Reply> {
     let Paths { net, exploration, graph } = paths;
     let mut initial = FixedBitSet::with_capacity(graph.len());
     initial.insert(0);
-    // From the others no way leads back. If there are none, all states are one component.
+    // The other states have no path back to the initial one. If there are none, the graph is one component.
     let mut others = leading_to(graph, &initial, stopping);
     others.toggle_range(..);
     if stopping.load(Ordering::Relaxed) {
@@ -27,14 +28,15 @@ pub(super) fn live(paths: &Paths<'_>, stopping: &AtomicBool) -> Option<Reply> {
     let mut is_left = FixedBitSet::with_capacity(components.count);
     for state in others.ones().map(|state| state as u32) {
         let own = components.of[state as usize];
-        // A state that was not expanded, and the one that stands for the unknown ones, tell nothing.
+        // Unexpanded states, and the one that stands for all unknown states, decide nothing: their components count as
+        // left.
         let leads_on = graph.successors(state).iter().any(|&next| components.of[next as usize] != own);
         is_left.set(own as usize, is_left.contains(own as usize) || leads_on || graph.row_of(state).is_none());
     }
     if stopping.load(Ordering::Relaxed) {
         return None;
     }
-    // The components that are not left, in the order of their nearest states.
+    // Terminal components, in the order of their nearest states.
     let mut number_of = vec![None; components.count];
     let mut nearest = Vec::new();
     for state in others.ones() {

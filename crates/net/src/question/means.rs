@@ -1,24 +1,24 @@
-//! How an answer was found.
+//! Techniques that answers rest on.
 
 use std::fmt;
 
-/// What an answer rests on. Those with a run do not depend on it: the run has been replayed.
+/// Technique that an answer rests on. Runs do not depend on it: they have been replayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Means {
-    /// The states that were explored.
+    /// Explicit state-space exploration.
     Exploration,
-    /// A walk that came upon a marking.
+    /// Random walk.
     Walk,
-    /// A certificate that the state equation has no solution, verified exactly.
+    /// State equation: an exactly verified certificate that it has no solution.
     StateEquation,
-    /// A search for one goal that leaves out what stubborn sets allow to leave out.
+    /// Search for one goal with stubborn-set reduction.
     StubbornSets,
-    /// The same, in a net reduced for the goal.
+    /// Stubborn-set search in a net structurally reduced for the goal.
     Reduction,
 }
 
 impl fmt::Display for Means {
-    /// As the contest names techniques.
+    /// Name of the technique in the contest.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Exploration => "EXPLICIT",

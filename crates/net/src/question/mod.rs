@@ -1,6 +1,6 @@
-//! Questions about a net alone. One exploration answers all of them in a small net: what can be reached, on the way (`hunt`); what
-//! speaks of paths, on the graph (`paths`). In a larger one, goals that are left open are thought about one by one (`think`).
-//! Every run is replayed by the plain firing rule (`replay`).
+//! Checks of a net alone. In a small net one exploration answers all questions: reachability on the fly (`hunt`),
+//! branching time on the graph (`paths`). In a larger one, open goals go one by one through a portfolio of techniques
+//! (`think`). Every run is replayed by the plain firing rule (`replay`).
 
 mod aim;
 mod atoms;
@@ -34,78 +34,78 @@ use petril_search::{Budget, Progress, Stop, watched};
 /// A question about a net.
 #[derive(Clone, Debug)]
 pub enum Question {
-    /// Whether a formula holds at the beginning.
+    /// Whether a formula holds at the initial marking.
     Holds(Bound),
-    /// How many tokens these places can hold together, a place named twice counting twice.
+    /// Maximum number of tokens on these places together; a place named twice counts twice.
     Most(Vec<PlaceId>),
-    /// Something about the net as a whole.
+    /// Global property of the net.
     Examination(Examination),
 }
 
 /// The answer to a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reply {
-    /// It holds; with a run that shows it, if one can.
+    /// The property holds; with a run that shows it, if one can.
     Holds(Option<Run>),
-    /// It does not; with a run that shows it, if one can.
+    /// The property is violated; with a run that shows it, if one can.
     Violated(Option<Run>),
-    /// So many tokens at most.
+    /// Maximum number of tokens.
     Most(u64),
-    /// Nobody knows, for this reason.
+    /// Undecided, with the reason.
     Unknown(String),
 }
 
-/// A firing sequence from the initial marking, or from where it branches off another.
+/// Firing sequence from the initial marking, or from where it branches off another run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Run {
-    /// The transitions in the order of firing.
+    /// Transitions in the order of firing.
     pub firings: Vec<TransitionId>,
-    /// For a run without end, the number of firings after which the marking was the one that the last firing leads to.
+    /// For a lasso, the number of firings before the marking that the last firing returns to.
     pub loop_start: Option<usize>,
-    /// What else is to be shown on the way.
+    /// Formulas that are shown at markings of the run.
     pub branches: Vec<Branch>,
-    /// Whether it is known that none shorter shows the same.
+    /// Whether no shorter run shows the same.
     pub is_shortest: bool,
 }
 
-/// A formula that holds on the way of a run.
+/// Formula claimed at a marking of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Branch {
-    /// After how many firings.
+    /// Number of firings before that marking.
     pub at: usize,
-    /// The formula.
+    /// Formula.
     pub formula: Bound,
-    /// A run from there that shows it. None can show what holds on all paths.
+    /// Run from there that shows it; `None` for universal formulas, which no run can show.
     pub run: Option<Run>,
 }
 
-/// What came of an exploration.
+/// Results of the check of a net.
 #[derive(Clone, Debug)]
 pub struct NetReport {
-    /// The answers, in the order of the questions.
+    /// Answers, in the order of the questions.
     pub replies: Vec<Reply>,
-    /// What each of them rests on, ascending; nothing if the initial marking is enough.
+    /// Techniques that each answer rests on, ascending; empty if the initial marking decides.
     pub means: Vec<Vec<Means>>,
-    /// What was explored.
+    /// Figures of the last exploration.
     pub figures: Figures,
-    /// Why the exploration ended. It may end as soon as all is answered.
+    /// Reason why the exploration ended. It may end as soon as all is answered.
     pub stop: Stop,
 }
 
-/// Called now and then with how far the work is; gives a reason to stop.
+/// Progress callback; returns a reason to stop.
 type Watch<'w> = &'w mut (dyn FnMut(&Progress) -> Option<String> + 'w);
 
-/// States of the first exploration.
+/// Limit on the states of the first exploration.
 const FIRST: u64 = 100_000;
 
-/// So many times as many states are explored next.
+/// Growth factor of that limit from round to round.
 const GROWTH: u64 = 16;
 
-/// Explores a net until every question is answered, or the options or `watch` end it. Every run has been replayed by the plain
-/// firing rule.
+/// Explores a net until every question is answered, or the options or `watch` end it. Every run has been replayed by
+/// the plain firing rule.
 ///
-/// A part of the states comes first, which is all of a small net. What is open then is thought about (`think`), and larger parts
-/// follow.
+/// The first round explores a limited number of states, which suffices for a small net. Open goals then go through the
+/// portfolio (`think`), and rounds with more states follow.
 #[must_use]
 pub fn judge(
     net: &Net,
@@ -116,7 +116,7 @@ pub fn judge(
     judge_aloud(net, questions, options, watch, &mut |_, _, _| {})
 }
 
-/// As [`judge`]; `tell` is called with each answer as soon as it is known, and with the number of the question.
+/// As [`judge`]; `tell` is called with the number of each question and its answer as soon as it is known.
 #[must_use]
 pub fn judge_aloud(
     net: &Net,
@@ -144,7 +144,7 @@ pub fn judge_aloud(
         let open = ledger.open();
         if reason.is_none() && is_partial && !open.is_empty() {
             let thinker = thinker.get_or_insert_with(|| Thinker::new(net, &model, &hunts));
-            // A state takes longer there, and each goal has states of its own.
+            // A state costs more there, and each goal has a state space of its own.
             let each = if states == options.budget.states { states } else { states / GROWTH };
             reason = thinker.round(&open, each, options, watch, &mut |at, reply, by| ledger.put(at, reply, by));
         }
@@ -158,7 +158,7 @@ pub fn judge_aloud(
     }
 }
 
-/// What an exploration answers; and why it was stopped while it did, if it was.
+/// Answers of an exploration, and the reason if `watch` stopped the work meanwhile.
 fn answers(
     net: &Net,
     hunts: &[&Hunt<'_>],
@@ -174,7 +174,7 @@ fn answers(
     }
     let bytes = Paths::bytes(exploration);
     if bytes > budget.bytes {
-        // Others may still be answered, by more states without their graph.
+        // Other properties may still be decided by more states, without a graph.
         let more = (bytes - budget.bytes) >> 20;
         let reason = format!("the graph needs {} MiB, {more} more than the limit", bytes >> 20);
         open.into_iter().for_each(|at| replies[at] = Some(Reply::Unknown(reason.clone())));

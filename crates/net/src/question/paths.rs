@@ -1,5 +1,5 @@
-//! Formulas about paths, labelled on the graph of the states explored; if these are not all states, only what holds whatever
-//! the others are counts.
+//! Branching-time formulas, labelled on the reachability graph; on a partial graph, only what holds whatever the
+//! unknown states are counts.
 
 use std::sync::atomic::AtomicBool;
 
@@ -16,7 +16,7 @@ use crate::net::Net;
 use petril_logic::{Bound, Dag, NodeId, label_from};
 use petril_search::{Graph, Stop};
 
-/// The graph, and where the parts about one state of some formulas hold.
+/// Reachability graph of an exploration.
 pub(super) struct Paths<'e> {
     pub(super) net: &'e Net,
     pub(super) exploration: &'e Exploration,
@@ -24,21 +24,21 @@ pub(super) struct Paths<'e> {
 }
 
 impl<'e> Paths<'e> {
-    /// The graph; nothing if `stopping` is set meanwhile, or there are too many states.
+    /// Builds the graph; `None` if `stopping` is set meanwhile, or there are too many states.
     pub(super) fn of(net: &'e Net, exploration: &'e Exploration, stopping: &AtomicBool) -> Option<Self> {
         let (starts, targets) = exploration.steps(stopping)?.into_parts();
         let graph = Graph::of_rows(exploration.kept(), starts, targets, exploration.stop.clone());
         Some(Self { net, exploration, graph })
     }
 
-    /// Bytes that the graph takes, with all that is needed to make it.
+    /// Estimate in bytes of the graph and of what is needed to build it.
     pub(super) fn bytes(exploration: &Exploration) -> u64 {
         let figures = &exploration.figures;
         let steps = figures.transitions as f64 / figures.expanded.max(1) as f64 * 4.0;
         figures.bytes + figures.states * 24 + (figures.states as f64 * steps) as u64
     }
 
-    /// What the graph says to some hunts. They are gone through side by side.
+    /// Answers to the properties, computed in parallel.
     pub(super) fn replies(&self, hunts: &[&Hunt<'_>], stopping: &AtomicBool) -> Vec<Option<Reply>> {
         let sides = |hunt: &&Hunt<'_>| match hunt {
             Hunt::Paths(formula) => Some([false, true].map(|negated| Side::of(formula, negated))),
@@ -65,7 +65,7 @@ impl<'e> Paths<'e> {
         Some(run.map_or_else(|what| refuted(&what), Reply::Violated))
     }
 
-    /// A run that shows one side at the beginning, replayed, if it holds there; nothing at all if there is no time left.
+    /// Run that shows one side at the initial marking, replayed, if that side holds there; outer `None` if stopped.
     fn shown(
         &self,
         side: &Side,
@@ -79,7 +79,7 @@ impl<'e> Paths<'e> {
     }
 }
 
-/// A formula, or its negation.
+/// A formula or its negation, in negation normal form.
 struct Side {
     dag: Dag,
     root: NodeId,
@@ -92,7 +92,7 @@ impl Side {
         Self { dag, root }
     }
 
-    /// Whether a run can show it.
+    /// Whether a run can show the formula.
     fn is_existential(&self) -> bool {
         self.dag.is_existential(self.root)
     }

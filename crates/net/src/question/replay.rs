@@ -1,4 +1,4 @@
-//! Runs replayed by the plain firing rule, which shares nothing with the search.
+//! Replay by the plain firing rule, which shares no code with the search.
 
 use super::Reply;
 use crate::engine::Exploration;
@@ -6,13 +6,13 @@ use crate::net::{Net, PlaceId, Tokens, TransitionId};
 use petril_base::VarId;
 use petril_logic::Valuation;
 
-/// The reply where a replay contradicts the search.
+/// Answer where replay and search disagree (an error in Petril).
 pub(super) fn refuted(what: &str) -> Reply {
     let message = "the replay refutes the search, which is an error in Petril; please report it";
     Reply::Unknown(format!("{message}: {what}"))
 }
 
-/// The firings that lead to a marking found, and the marking they lead to by the plain firing rule.
+/// Firing sequence to a marking found, and the marking it reaches by the plain firing rule.
 pub(super) fn way(
     net: &Net,
     exploration: &Exploration,
@@ -24,7 +24,7 @@ pub(super) fn way(
     Ok((firings, last))
 }
 
-/// The last marking of a run, by the plain firing rule.
+/// Last marking of a run, by the plain firing rule.
 pub(super) fn last_marking(net: &Net, firings: &[TransitionId]) -> Result<Tokens, String> {
     let mut tokens = net.initial_tokens();
     for &transition in firings {

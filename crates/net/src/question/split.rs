@@ -1,4 +1,4 @@
-//! A question as a Boolean combination of parts that are answered one by one.
+//! Decomposition of a question into parts that are answered one by one, and their Boolean combination.
 
 use super::hunt::Hunt;
 use super::replay::Played;
@@ -6,11 +6,11 @@ use super::{Branch, Means, Question, Reply, Run};
 use crate::net::Net;
 use petril_logic::Bound;
 
-/// A question whose parts have been taken out.
+/// A question with its parts taken out.
 pub(super) enum Split<'q> {
-    /// A part, by its number among the hunts; a formula, if it stands in one.
+    /// Part, by its number among the properties, with its formula if the question is one.
     Part(usize, Option<&'q Bound>),
-    /// What the initial marking says.
+    /// Value at the initial marking.
     Known(bool),
     Not(Box<Self>),
     And(Box<Self>, Box<Self>),
@@ -19,7 +19,7 @@ pub(super) enum Split<'q> {
 }
 
 impl<'q> Split<'q> {
-    /// Takes a question apart, and puts its parts behind `hunts`.
+    /// Decomposes a question and appends its parts to `hunts`.
     pub(super) fn of(question: &'q Question, net: &Net, hunts: &mut Vec<Hunt<'q>>) -> Self {
         if let Question::Holds(formula) = question {
             Self::of_formula(formula, net, hunts)
@@ -48,7 +48,7 @@ impl<'q> Split<'q> {
         }
     }
 
-    /// Whether it holds, as far as the replies to the parts tell.
+    /// Value under the answers so far, if they decide it.
     fn value(&self, replies: &[Option<Reply>]) -> Option<bool> {
         let of = |split: &Self| split.value(replies);
         match self {
@@ -71,7 +71,7 @@ impl<'q> Split<'q> {
         }
     }
 
-    /// The reply, if those to the parts are enough.
+    /// Answer to the question, if the answers to the parts decide it.
     pub(super) fn reply(&self, replies: &[Option<Reply>]) -> Option<Reply> {
         if let Self::Part(part, _) = self {
             return replies[*part].clone();
@@ -83,7 +83,7 @@ impl<'q> Split<'q> {
         Some(if value { Reply::Holds(run) } else { Reply::Violated(run) })
     }
 
-    /// Why not, where a part is not known and the replies to the others are not enough.
+    /// Reason of an undecided part.
     pub(super) fn reason<'r>(&self, replies: &'r [Option<Reply>]) -> Option<&'r str> {
         match self {
             Self::Known(_) => None,
@@ -96,7 +96,7 @@ impl<'q> Split<'q> {
         }
     }
 
-    /// What the replies to its parts rest on.
+    /// Techniques that the answers to the parts rest on.
     pub(super) fn means(&self, replies: &[Option<Reply>], means: &[Means]) -> Vec<Means> {
         let mut all = Vec::new();
         self.for_each_part(&mut |part| all.extend(replies[part].is_some().then_some(means[part])));
@@ -105,7 +105,7 @@ impl<'q> Split<'q> {
         all
     }
 
-    /// The numbers of the parts that it needs.
+    /// Visits the numbers of all parts.
     pub(super) fn for_each_part(&self, visit: &mut dyn FnMut(usize)) {
         match self {
             Self::Known(_) => {}
@@ -118,7 +118,7 @@ impl<'q> Split<'q> {
         }
     }
 
-    /// The parts that make it true, or false, and the runs that show them.
+    /// Collects the parts that make the formula have this value, with their runs.
     fn show(&self, value: bool, replies: &[Option<Reply>], branches: &mut Vec<Branch>) {
         match self {
             Self::Known(_) => {}
@@ -131,7 +131,7 @@ impl<'q> Split<'q> {
             }
             Self::Not(f) => f.show(!value, replies, branches),
             Self::And(f, g) | Self::Or(f, g) => {
-                // Both parts are needed for a true conjunction; for a false one, one that is false.
+                // A true conjunction needs both parts; a false one, one false part.
                 let is_and = matches!(self, Self::And(..));
                 if is_and == value {
                     f.show(value, replies, branches);

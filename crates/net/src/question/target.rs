@@ -1,4 +1,4 @@
-//! A net reduced for one goal, and the goal there.
+//! Structural reduction of a net for one goal, and the goal in the reduced net.
 
 use std::sync::atomic::AtomicBool;
 
@@ -8,15 +8,15 @@ use crate::engine::Model;
 use crate::net::{Net, PlaceId, TransitionId};
 use crate::structure::reduce::{Keep, Options, Property, Reduced, reduce_until};
 
-/// Where a goal is searched for.
+/// Net in which a goal is searched for.
 pub(super) struct Target<'n> {
     net: &'n Net,
-    /// Nothing if it is the net itself.
+    /// Reduced net; `None` for the net itself.
     reduced: Option<(Reduced<'n>, Model)>,
 }
 
 impl<'n> Target<'n> {
-    /// The net reduced as far as the goal allows, or until `stopping` is set.
+    /// Reduces the net as far as the goal allows, or until `stopping` is set.
     pub(super) fn of(net: &'n Net, goal: &Goal, stopping: &AtomicBool) -> Self {
         let mut keep = Keep::nothing(Property::Reachability);
         if !see(goal, &mut keep) {
@@ -27,22 +27,22 @@ impl<'n> Target<'n> {
         Self { net, reduced: Some((reduced, model)) }
     }
 
-    /// The net itself.
+    /// Takes the net itself.
     pub(super) fn unreduced(net: &'n Net) -> Self {
         Self { net, reduced: None }
     }
 
-    /// What is searched, where `whole` is the net itself.
+    /// Model to search, where `whole` is the net itself.
     pub(super) fn model<'a>(&'a self, whole: &'a Model) -> &'a Model {
         self.reduced.as_ref().map_or(whole, |(_, model)| model)
     }
 
-    /// What a search here rests on.
+    /// Technique of a search here.
     pub(super) fn means(&self) -> Means {
         if self.reduced.is_some() { Means::Reduction } else { Means::StubbornSets }
     }
 
-    /// The goal as the reduced net has it. Transitions that it lacks are enabled when the places of their presets say so.
+    /// Translates the goal to the reduced net. Enabledness of a removed transition becomes a condition on its preset.
     pub(super) fn goal(&self, goal: &Goal) -> Goal {
         let Some((reduced, _)) = &self.reduced else { return goal.clone() };
         let place = |place: u32| reduced.place(PlaceId::at(place as usize)).map_or(u32::MAX, |id| id.index() as u32);
@@ -73,7 +73,7 @@ impl<'n> Target<'n> {
         }
     }
 
-    /// The firings of the net itself that these stand for; nothing if they are too many.
+    /// Lifts a firing sequence to the net itself; `None` if it gets too long.
     pub(super) fn lifted(&self, firings: &[usize]) -> Option<Vec<u32>> {
         let Some((reduced, _)) = &self.reduced else { return Some(firings.iter().map(|&id| id as u32).collect()) };
         let firings: Vec<TransitionId> = firings.iter().map(|&id| TransitionId::at(id)).collect();
@@ -82,7 +82,7 @@ impl<'n> Target<'n> {
     }
 }
 
-/// Adds what a goal sees; whether a reduction can keep it.
+/// Adds the places and transitions observed by a goal; whether a reduction can preserve it.
 fn see(goal: &Goal, keep: &mut Keep) -> bool {
     match goal {
         Goal::Truth(_) => {}

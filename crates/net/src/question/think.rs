@@ -1,5 +1,5 @@
-//! Goals in nets too large to explore at once: what walks find, what the state equation excludes, and what searches for one goal
-//! at a time, in nets reduced for it, find or exclude.
+//! Portfolio for goals in nets too large to explore at once: random walks, the state equation, and a stubborn-set
+//! search for one goal at a time in the net reduced for it.
 
 use std::sync::atomic::AtomicBool;
 
@@ -13,21 +13,21 @@ use crate::structure::state_equation::Problem;
 use crate::{Goal, Walk, without_loops};
 use petril_search::{Budget, Progress, Stop, watched};
 
-/// Atoms that walks look at, those for all goals together and those for one.
+/// Atoms evaluated by random walks: for all goals together, and towards one.
 const WALKED: usize = 6_000_000;
 const WALKED_FOR_ONE: usize = 1_500_000;
 
-/// Firings of the first walk. Each one is longer than the one before, up to a limit.
+/// Firings of the first walk. Each walk is longer than the one before, up to the limit `LONG`.
 const SHORT: usize = 200;
 const LONG: usize = 1 << 20;
 
-/// Steps between two looks at the clock.
+/// Walk steps between two calls of `watch`.
 const PAUSE: usize = 4096;
 
 /// Elementary steps of the linear programs for one goal.
 const STEPS: u64 = 20_000_000;
 
-/// Goals that the first look at the states has left open.
+/// Goals that the exploration has left open, with the state of the portfolio.
 pub(super) struct Thinker<'n, 'h> {
     net: &'n Net,
     model: &'n Model,
@@ -35,29 +35,29 @@ pub(super) struct Thinker<'n, 'h> {
     has_begun: bool,
 }
 
-/// A goal that is open until it has a reply.
+/// Goal with its search state.
 struct Case<'n, 'h> {
     hunt: &'h Hunt<'h>,
-    /// Where it stands among the hunts.
+    /// Number among the properties.
     at: usize,
     aim: Goal,
     target: Option<Target<'n>>,
     is_open: bool,
 }
 
-/// Called with a reply and the number of its hunt.
+/// Callback for an answer and the number of its property.
 type Note<'n> = &'n mut (dyn FnMut(usize, Reply, Means) + 'n);
 
 impl<'n, 'h> Thinker<'n, 'h> {
-    /// Takes up the hunts that have a goal.
+    /// Takes the properties that have a goal.
     pub(super) fn new(net: &'n Net, model: &'n Model, hunts: &'h [Hunt<'h>]) -> Self {
         let case =
             |(at, hunt): (usize, &'h Hunt<'h>)| Some(Case { hunt, at, aim: hunt.aim()?, target: None, is_open: true });
         Self { net, model, cases: hunts.iter().enumerate().filter_map(case).collect(), has_begun: false }
     }
 
-    /// Looks for replies to those of the hunts that are open, with up to so many states for each goal, until `watch` gives a
-    /// reason to stop, which is returned.
+    /// Works one round on the open properties, with up to `states` states for each goal; ends when `watch` gives a reason
+    /// to stop, which is returned.
     pub(super) fn round(
         &mut self,
         open: &[usize],
@@ -68,7 +68,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
     ) -> Option<String> {
         self.cases.retain(|case| open.binary_search(&case.at).is_ok());
         for case in &mut self.cases {
-            // The search may have raised it.
+            // The search may have raised a maximum.
             if let Some(aim) = case.hunt.aim() {
                 case.aim = aim;
             }
@@ -98,7 +98,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
         Ok(())
     }
 
-    /// Walks until so many atoms were looked at: anywhere, or towards one of the goals.
+    /// Random walks until this many atoms were evaluated: undirected, or towards one of the goals.
     fn walk(&mut self, towards: Option<usize>, atoms: usize, watch: Watch<'_>, note: Note<'_>) -> Result<(), String> {
         let is_over = |cases: &[Case<'_, '_>]| match towards {
             Some(position) => !cases[position].is_open,
@@ -109,7 +109,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
         }
         let seed = towards.map_or(1, |position| position as u64 + 2);
         let Some(mut walk) = Walk::new(self.model, seed) else { return Ok(()) };
-        // Raising a goal leaves it as long as it was.
+        // Raising a goal does not change its size.
         let sizes: Vec<usize> = self.cases.iter().map(|case| size(&case.aim)).collect();
         let (mut looked, mut steps, mut length) = (0, 0, SHORT);
         while looked < atoms {
@@ -143,7 +143,7 @@ impl<'n, 'h> Thinker<'n, 'h> {
 }
 
 impl<'n> Case<'n, '_> {
-    /// The net reaches the goal by these firings. A goal that can be raised is raised.
+    /// Records a run to the goal. The goal of a maximum is raised instead of settled.
     fn found(&mut self, net: &Net, firings: &[u32], by: Means, note: Note<'_>) {
         let run = firings.iter().map(|&transition| TransitionId::at(transition as usize)).collect();
         self.settle(self.hunt.reached(net, run, by), by, note);
@@ -152,7 +152,7 @@ impl<'n> Case<'n, '_> {
         }
     }
 
-    /// Notes a reply, if there is one.
+    /// Passes on an answer, if there is one.
     fn settle(&mut self, reply: Option<Reply>, by: Means, note: Note<'_>) {
         if let Some(reply) = reply {
             note(self.at, reply, by);
@@ -160,7 +160,7 @@ impl<'n> Case<'n, '_> {
         }
     }
 
-    /// Searches the net reduced for the goal.
+    /// Searches the reduced net for the goal.
     fn search(
         &mut self,
         net: &'n Net,
@@ -194,7 +194,7 @@ impl<'n> Case<'n, '_> {
     }
 }
 
-/// How many atoms a goal has.
+/// Number of atoms of a goal.
 fn size(goal: &Goal) -> usize {
     match goal {
         Goal::All(parts) | Goal::Any(parts) => parts.iter().map(size).sum(),
@@ -212,7 +212,7 @@ fn patiently<T: Send>(watch: Watch<'_>, work: impl FnOnce(&AtomicBool) -> T + Se
     }
 }
 
-/// Looks at the clock.
+/// Asks `watch` for a reason to stop.
 fn look(watch: Watch<'_>) -> Result<(), String> {
     watch(&Progress::default()).map_or(Ok(()), Err)
 }

@@ -1,4 +1,4 @@
-//! Which variables of a program signals stand for.
+//! Binding of signals to variables of a program.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,25 +8,26 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 
-/// A diagnostic in one of the files of a specification, by its position.
+/// Diagnostic in a file of a specification, given by the file's position.
 pub type Located = (usize, Diagnostic);
 
-/// Finds the variables of signals: by `is NAME`, by `at %IX0.0`, or by their own name. What is wrong is kept to the end.
+/// Resolves signals to variables: by `is NAME`, by `at %IX0.0`, or by their own name. Diagnostics are collected until
+/// the end.
 #[derive(Debug)]
 pub struct Binder<'a> {
     specification: &'a Specification,
     program: &'a FlatProgram,
-    /// The signal that each variable stands for.
+    /// Signal bound to each variable.
     signals: Vec<Option<SignalId>>,
-    /// The variable of each signal that was asked for.
+    /// Variable of each signal requested.
     variables: Vec<Option<VarId>>,
-    /// Those that were asked for: what is wrong is said once.
+    /// Signals requested, so that each is diagnosed once.
     asked: FixedBitSet,
     found: Vec<Located>,
 }
 
 impl<'a> Binder<'a> {
-    /// Nothing is bound yet.
+    /// Starts without bindings.
     #[must_use]
     pub fn new(specification: &'a Specification, program: &'a FlatProgram) -> Self {
         let (signals, variables) = (vec![None; program.variables.len()], vec![None; specification.signals.len()]);
@@ -34,23 +35,23 @@ impl<'a> Binder<'a> {
         Self { specification, program, signals, variables, asked, found: Vec::new() }
     }
 
-    /// The variable of each signal that was asked for.
+    /// Variables of the signals requested.
     ///
     /// # Errors
-    /// Signals that stand for nothing in the program, or for what they cannot.
+    /// Signals whose variable is missing or unsuitable.
     pub fn finish(self) -> Result<Vec<Option<VarId>>, Vec<Located>> {
         if self.found.is_empty() { Ok(self.variables) } else { Err(self.found) }
     }
 
-    /// The variable of a signal if the program has it. Not to have what nobody bound to a variable is no mistake: it may be
-    /// the business of another program.
+    /// The variable of a signal, if the program has it. A missing variable is not an error unless the signal has an
+    /// explicit binding: the signal may belong to another program.
     pub fn bind_if_there(&mut self, id: SignalId) -> Option<VarId> {
         let signal = self.specification.signal(id);
         let is_elsewhere = signal.binding.is_none() && self.program.find(&signal.name).is_none();
         if is_elsewhere { None } else { self.bind(id) }
     }
 
-    /// The variable of a signal; nothing if an error has been said.
+    /// The variable of a signal; `None` if a diagnostic has been added.
     pub fn bind(&mut self, id: SignalId) -> Option<VarId> {
         if self.asked.put(id.0) {
             return self.variables[id.0];

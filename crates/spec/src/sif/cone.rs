@@ -1,4 +1,4 @@
-//! What matters to some signals: what they are computed from, and the restrictions that connect these inputs with others.
+//! Cone of influence of signals, closed under restrictions that relate its inputs with others.
 
 use fixedbitset::FixedBitSet;
 
@@ -6,30 +6,31 @@ use super::formula::{Formula, SignalId};
 use super::solver::{Literal, Solver};
 use super::specification::{Restriction, Specification};
 
-/// A part of a specification that can be looked at without the rest: no restriction speaks of signals inside and outside of it.
+/// Cone of influence: a self-contained part of a specification. No restriction mentions signals both inside and outside
+/// it.
 #[derive(Clone, Debug)]
 pub struct Cone<'s> {
-    /// The specification.
+    /// Specification.
     pub specification: &'s Specification,
-    /// The inputs that the signals are computed from: what a test of them sets, in the order in which formulas name them.
+    /// Inputs that the signals are computed from, which a test sets, in the order in which formulas mention them.
     pub inputs: Vec<SignalId>,
-    /// Further inputs, connected with these by restrictions.
+    /// Further inputs, related to these by restrictions.
     pub connected: Vec<SignalId>,
-    /// The definitions that are needed for all that, each behind those it uses.
+    /// Definitions needed, in topological order: each after those it uses.
     pub definitions: Vec<SignalId>,
-    /// The restrictions that have to be kept.
+    /// Restrictions that apply to the cone.
     pub restrictions: Vec<&'s Restriction>,
 }
 
 impl<'s> Cone<'s> {
-    /// What matters to the outputs and auxiliary values of a function.
+    /// Cone of all equations of a function.
     #[must_use]
     pub fn of_function(specification: &'s Specification, function: usize) -> Self {
         let restrictions = specification.restrictions_of(function).collect();
         Self::of(specification, &specification.functions[function].equations, restrictions)
     }
 
-    /// What matters to these signals, where these restrictions are kept.
+    /// Cone of these signals under these restrictions.
     #[must_use]
     pub fn of(specification: &'s Specification, signals: &[SignalId], restrictions: Vec<&'s Restriction>) -> Self {
         let mut inside = Inside::new(specification);
@@ -41,7 +42,7 @@ impl<'s> Cone<'s> {
             .collect();
         let mut kept = FixedBitSet::with_capacity(specification.restrictions.len());
         loop {
-            // What speaks of no input at all is either always so or never: it matters to everyone.
+            // A restriction without inputs is constant, so it applies to every cone.
             let meets = |of: &[SignalId]| of.is_empty() || of.iter().any(|input| inside.seen.contains(input.0));
             let (joins, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|(_, of)| meets(of));
             left = others;
@@ -61,13 +62,13 @@ impl<'s> Cone<'s> {
         Self { specification, inputs, connected, definitions, restrictions }
     }
 
-    /// The inputs of both kinds.
+    /// Inputs of both kinds.
     pub fn all_inputs(&self) -> impl Iterator<Item = SignalId> {
         self.inputs.iter().chain(&self.connected).copied()
     }
 
-    /// Tells a solver what the signals of the cone mean: a literal for each of them. Restrictions are only made to literals,
-    /// in their order, so that whoever solves can assume them.
+    /// Encodes the cone in a solver: a literal for each signal. Restrictions become literals, too, in their order, and
+    /// are not asserted, so that they can be assumed one by one.
     pub fn encode(&self, solver: &mut Solver) -> Encoded {
         let mut literals = vec![solver.constant(false); self.specification.signals.len()];
         for input in self.all_inputs() {
@@ -85,36 +86,36 @@ impl<'s> Cone<'s> {
         Encoded { literals, restrictions }
     }
 
-    /// Whether the restrictions allow what signals have; `value` gives 64 valuations at once.
+    /// Whether the restrictions allow a valuation; `value` gives 64 valuations at once, one per bit.
     pub fn allows(&self, value: &impl Fn(SignalId) -> u64) -> u64 {
         self.restrictions.iter().fold(u64::MAX, |all, restriction| all & restriction.allowed.evaluate(value))
     }
 }
 
-/// The literals of a cone in a solver.
+/// Literals of a cone in a solver.
 pub struct Encoded {
-    /// One for each signal of the specification; those outside the cone mean nothing.
+    /// Literal of each signal of the specification; meaningless outside the cone.
     pub literals: Vec<Literal>,
-    /// One for each restriction of the cone.
+    /// Literal of each restriction of the cone.
     pub restrictions: Vec<Literal>,
 }
 
 impl Encoded {
-    /// The inputs that are TRUE in the model that a solver found last.
+    /// Inputs that are TRUE in the model found last.
     #[must_use]
     pub fn model(&self, cone: &Cone<'_>, solver: &Solver) -> FixedBitSet {
         cone.specification.valuation(cone.all_inputs().filter(|input| solver.value(self.literals[input.0])))
     }
 }
 
-/// The inputs that a formula depends on, in the order in which definitions name them.
+/// Inputs that a formula depends on, in the order in which definitions mention them.
 pub fn inputs_of(specification: &Specification, formula: &Formula) -> Vec<SignalId> {
     let mut inside = Inside::new(specification);
     formula.each_signal(&mut |signal| inside.add(signal));
     inside.inputs
 }
 
-/// Signals, with all they are computed from.
+/// Signals with everything they are computed from.
 struct Inside<'s> {
     specification: &'s Specification,
     seen: FixedBitSet,
@@ -127,7 +128,7 @@ impl<'s> Inside<'s> {
         Self { specification, seen, inputs: Vec::new() }
     }
 
-    /// Adds a signal. A list of what is still to be looked at takes the place of recursion: definitions can be many.
+    /// Adds a signal. Uses an explicit worklist, since chains of definitions can be long.
     fn add(&mut self, signal: SignalId) {
         let mut left = vec![signal];
         while let Some(signal) = left.pop() {

@@ -1,19 +1,19 @@
-//! Sets of valuations as binary decision diagrams, counted and listed: the only file that knows their library.
+//! Binary decision diagrams: sets of valuations, counted and listed. The only file that uses the BDD library.
 //!
-//! After Bryant, "Graph-based algorithms for Boolean function manipulation" (1986). A diagram may have only so many nodes;
-//! where it would have more there is none, and whoever asked has to do without.
+//! After Bryant, "Graph-based algorithms for Boolean function manipulation" (1986). Diagrams have a node limit;
+//! operations that exceed it return `None`, and callers do without.
 
 use biodivine_lib_bdd::{Bdd, BddVariable, BddVariableSet, op_function};
 use fixedbitset::FixedBitSet;
 
 use super::formula::{Formula, Operator, SignalId};
 
-/// Diagrams over some signals.
+/// Manager of diagrams over a list of signals.
 pub struct Diagrams {
     variables: BddVariableSet,
-    /// Which signal each variable is.
+    /// Signal of each variable.
     order: Vec<SignalId>,
-    /// The variable of each signal.
+    /// Variable of each signal.
     of: Vec<Option<BddVariable>>,
     limit: usize,
 }
@@ -22,20 +22,21 @@ pub struct Diagrams {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagram(Bdd);
 
-/// Some signals with values, and what is true of all valuations that have these: those of `ones` are TRUE, those of `zeros` FALSE.
+/// Cube: partial valuation with `ones` TRUE and `zeros` FALSE; signals in neither list are free.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cube {
-    /// The signals that are TRUE.
+    /// Signals that are TRUE.
     pub ones: Vec<SignalId>,
-    /// The signals that are FALSE.
+    /// Signals that are FALSE.
     pub zeros: Vec<SignalId>,
 }
 
-/// Most signals that diagrams are about, a limit of their library.
+/// Upper bound on signals, set by the library.
 const MAX_SIGNALS: usize = u16::MAX as usize - 2;
 
 impl Diagrams {
-    /// Diagrams of up to `limit` nodes over some of so many signals, which are asked in this order. Nothing if they are too many.
+    /// Creates diagrams of up to `limit` nodes over some of `signals` signals, in this variable order; `None` if they
+    /// are too many.
     #[must_use]
     pub fn over(order: Vec<SignalId>, signals: usize, limit: usize) -> Option<Self> {
         let count = u16::try_from(order.len().min(MAX_SIGNALS + 1)).ok().filter(|_| order.len() <= MAX_SIGNALS)?;
@@ -45,38 +46,38 @@ impl Diagrams {
         Some(Self { variables, order, of, limit })
     }
 
-    /// All valuations, or none.
+    /// The set of all valuations, or the empty set.
     #[must_use]
     pub fn constant(&self, value: bool) -> Diagram {
         Diagram(if value { self.variables.mk_true() } else { self.variables.mk_false() })
     }
 
-    /// Where a signal is TRUE. Nothing if diagrams are not about it.
+    /// Valuations in which a signal is TRUE; `None` if it is not in the variable order.
     #[must_use]
     pub fn signal(&self, signal: SignalId) -> Option<Diagram> {
         let variable = self.of.get(signal.0).copied().flatten()?;
         Some(Diagram(self.variables.mk_var(variable)))
     }
 
-    /// Where both are so.
+    /// Intersection.
     #[must_use]
     pub fn and(&self, a: &Diagram, b: &Diagram) -> Option<Diagram> {
         Bdd::binary_op_with_limit(self.limit, &a.0, &b.0, op_function::and).map(Diagram)
     }
 
-    /// Where one at least is so.
+    /// Union.
     #[must_use]
     pub fn or(&self, a: &Diagram, b: &Diagram) -> Option<Diagram> {
         Bdd::binary_op_with_limit(self.limit, &a.0, &b.0, op_function::or).map(Diagram)
     }
 
-    /// Where they differ.
+    /// Symmetric difference.
     #[must_use]
     pub fn xor(&self, a: &Diagram, b: &Diagram) -> Option<Diagram> {
         Bdd::binary_op_with_limit(self.limit, &a.0, &b.0, op_function::xor).map(Diagram)
     }
 
-    /// Where a formula is true, if signals are so where `value` says. Nothing if a part of it would become too large.
+    /// Models of a formula, with `value` for its signals; `None` if a subformula exceeds the node limit.
     #[must_use]
     pub fn formula(&self, formula: &Formula, value: &impl Fn(SignalId) -> Option<Diagram>) -> Option<Diagram> {
         match formula {
@@ -112,7 +113,7 @@ impl Diagrams {
         }
     }
 
-    /// The set without the difference that these signals make: the valuations for which some values of them are in it.
+    /// Existential quantification: valuations that are in the set for some values of these signals.
     #[must_use]
     pub fn whatever(&self, diagram: &Diagram, signals: &[SignalId]) -> Option<Diagram> {
         let mut found = diagram.0.clone();
@@ -126,25 +127,25 @@ impl Diagrams {
         Some(Diagram(found))
     }
 
-    /// How many valuations of all signals are in a set, as a decimal number.
+    /// Number of valuations of all signals in a set, in decimal.
     #[must_use]
     pub fn count(&self, diagram: &Diagram) -> String {
         diagram.0.exact_cardinality().to_string()
     }
 
-    /// How many valuations of all but some signals are in a set that these make no difference to, as a decimal number.
+    /// Number of valuations of all but these signals, on which the set must not depend, in decimal.
     #[must_use]
     pub fn count_without(&self, diagram: &Diagram, signals: &[SignalId]) -> String {
         (diagram.0.exact_cardinality() >> signals.len()).to_string()
     }
 
-    /// How many they are, if they are not too many for a number of 64 bits.
+    /// Number of valuations, if it fits 64 bits.
     #[must_use]
     pub fn count_if_few(&self, diagram: &Diagram) -> Option<u64> {
         u64::try_from(diagram.0.exact_cardinality()).ok()
     }
 
-    /// The valuations in a set, as the signals that are TRUE, in an order that is always the same.
+    /// Valuations in a set, as the signals that are TRUE, in a deterministic order.
     pub fn valuations<'d>(&'d self, diagram: &'d Diagram) -> impl Iterator<Item = FixedBitSet> + 'd {
         diagram.0.sat_valuations().map(|valuation| {
             let ones =
@@ -155,7 +156,7 @@ impl Diagrams {
         })
     }
 
-    /// Cubes that have nothing in common and make up the set.
+    /// Disjoint cubes whose union is the set.
     pub fn cubes<'d>(&'d self, diagram: &'d Diagram) -> impl Iterator<Item = Cube> + 'd {
         diagram.0.sat_clauses().map(|clause| {
             let mut cube = Cube { ones: Vec::new(), zeros: Vec::new() };
@@ -172,25 +173,25 @@ impl Diagrams {
 }
 
 impl Diagram {
-    /// All other valuations.
+    /// Complement.
     #[must_use]
     pub fn complement(&self) -> Self {
         Self(self.0.not())
     }
 
-    /// Whether no valuation is in it.
+    /// Whether the set is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_false()
     }
 
-    /// Whether every valuation is.
+    /// Whether the set contains every valuation.
     #[must_use]
     pub fn is_all(&self) -> bool {
         self.0.is_true()
     }
 
-    /// How many nodes it has.
+    /// Number of nodes.
     #[must_use]
     pub fn size(&self) -> usize {
         self.0.size()

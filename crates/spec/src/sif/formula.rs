@@ -1,43 +1,43 @@
 //! Boolean formulas over the signals of a specification.
 
-/// A signal of a [`Specification`](super::Specification): its position among the signals.
+/// Signal of a [`Specification`](super::Specification): its position among the signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SignalId(pub usize);
 
-/// A Boolean formula; before names are resolved, `S` is a name.
+/// Boolean formula over signals; before name resolution, `S` is a name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Formula<S = SignalId> {
-    /// TRUE or FALSE.
+    /// Boolean constant.
     Constant(bool),
-    /// What a signal has.
+    /// Signal.
     Signal(S),
-    /// The opposite.
+    /// Negation.
     Not(Box<Formula<S>>),
-    /// An operator and its operands: two for `Implies` and `Iff`, one or more for the others.
+    /// Gate: an operator with its operands; two for `Implies` and `Iff`, one or more for the others.
     Gate(Operator, Vec<Formula<S>>),
 }
 
-/// What joins formulas.
+/// Boolean operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operator {
-    /// All are true.
+    /// Conjunction.
     And,
-    /// One at least is true.
+    /// Disjunction.
     Or,
-    /// An odd number of them is true.
+    /// Exclusive or: an odd number of operands is true.
     Xor,
-    /// If the first is true, so is the second.
+    /// Implication of the second operand by the first.
     Implies,
-    /// Both are the same.
+    /// Equivalence.
     Iff,
-    /// No two are true.
+    /// At most one operand is true.
     AtMostOne,
-    /// One is true, and no other.
+    /// Exactly one operand is true.
     ExactlyOne,
 }
 
 impl Operator {
-    /// How strongly it binds; what stands in parentheses anyway binds strongest.
+    /// Binding strength; operators written with parentheses bind strongest.
     fn strength(self) -> u8 {
         match self {
             Self::Iff => 1,
@@ -49,7 +49,7 @@ impl Operator {
         }
     }
 
-    /// How it is written, between its operands or before all of them.
+    /// Spelling, between the operands or before all of them.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ impl Operator {
         }
     }
 
-    /// What it makes of its operands, bit by bit.
+    /// Applies the operator to its operands, bit by bit.
     pub(super) fn apply(self, mut operands: impl Iterator<Item = u64>) -> u64 {
         match self {
             Self::And => operands.fold(u64::MAX, |all, word| all & word),
@@ -83,7 +83,7 @@ impl Operator {
 }
 
 impl<S> Formula<S> {
-    /// The same formula about other signals.
+    /// Replaces the signals of the formula.
     pub fn map<T>(&self, of: &mut impl FnMut(&S) -> T) -> Formula<T> {
         match self {
             Self::Constant(value) => Formula::Constant(*value),
@@ -95,7 +95,7 @@ impl<S> Formula<S> {
         }
     }
 
-    /// The opposite, without a second negation.
+    /// Negation, without double negation.
     #[must_use]
     pub fn negated(self) -> Self {
         match self {
@@ -107,7 +107,7 @@ impl<S> Formula<S> {
 }
 
 impl Formula {
-    /// What it is on 64 valuations at once: one per bit of the words that `value` gives.
+    /// Evaluates the formula on 64 valuations at once, one per bit of the words given by `value`.
     pub fn evaluate(&self, value: &impl Fn(SignalId) -> u64) -> u64 {
         match self {
             Self::Constant(true) => u64::MAX,
@@ -118,12 +118,12 @@ impl Formula {
         }
     }
 
-    /// Whether it is true where a signal has what `value` says.
+    /// Whether the formula is true under a valuation.
     pub fn holds(&self, value: impl Fn(SignalId) -> bool) -> bool {
         self.evaluate(&|signal| u64::from(value(signal))) & 1 == 1
     }
 
-    /// Calls this for every signal that is named, as often as it is, from left to right.
+    /// Calls `see` for every occurrence of a signal, from left to right.
     pub fn each_signal(&self, see: &mut impl FnMut(SignalId)) {
         match self {
             Self::Constant(_) => {}
@@ -133,7 +133,7 @@ impl Formula {
         }
     }
 
-    /// The signals that are named, each once, in the order in which they come first.
+    /// Signals of the formula, each once, in the order of first occurrence.
     #[must_use]
     pub fn signals(&self) -> Vec<SignalId> {
         let (mut found, mut seen) = (Vec::new(), rustc_hash::FxHashSet::default());
@@ -145,7 +145,7 @@ impl Formula {
         found
     }
 
-    /// The formula as it is written, with the fewest parentheses.
+    /// Text of the formula, with the fewest parentheses.
     pub fn text<'n>(&self, name: &impl Fn(SignalId) -> &'n str) -> String {
         let mut text = String::new();
         self.write(&mut text, 0, name);

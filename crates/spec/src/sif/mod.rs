@@ -1,5 +1,5 @@
-//! Safety instrumented functions (SIF): Boolean specifications, what is wrong with them, tests that find faults, and proofs
-//! that a program computes them. After seed paper 002 (a personnel protection system).
+//! Safety instrumented functions (SIF): Boolean specifications, sanity checks of them, test generation, and proofs that
+//! a program computes them. After seed paper 002 (a personnel protection system).
 //!
 //! ```
 //! use petril_spec::sif::Specification;

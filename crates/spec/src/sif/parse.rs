@@ -1,4 +1,4 @@
-//! The text of a specification file to [`Written`]: what can be read, and every error.
+//! Parser of specification files, with error recovery: text to [`Written`].
 
 use std::sync::LazyLock;
 
@@ -22,7 +22,7 @@ use petril_logic::{chained, connectives};
 #[grammar = "../../grammar/sif.pest"]
 struct SifParser;
 
-/// Reads a file.
+/// Parses a file.
 pub(super) fn parse(source: &Source) -> (Written, Vec<Diagnostic>) {
     let text = source.text();
     let mut reader = Reader { written: Written::default(), diagnostics: Vec::new() };
@@ -43,14 +43,14 @@ pub(super) fn parse(source: &Source) -> (Written, Vec<Diagnostic>) {
     (reader.written, reader.diagnostics)
 }
 
-/// What is being read.
+/// Conversion of parse results.
 struct Reader {
     written: Written,
     diagnostics: Vec<Diagnostic>,
 }
 
 impl Reader {
-    /// What stands in a file or in a zone.
+    /// Converts the items of a file or a zone.
     fn items<'i>(&mut self, pairs: impl Iterator<Item = Pair<'i, Rule>>, zone: Option<usize>, text: &str) {
         for pair in pairs {
             match pair.as_rule() {
@@ -148,7 +148,7 @@ impl Reader {
         self.written.functions[function].outputs.push(output);
     }
 
-    /// What a signal is in the program.
+    /// Binding of a signal to the program.
     fn binding(&mut self, pair: &Pair<'_, Rule>) -> Option<WrittenBinding> {
         self.once(pair, &[Rule::at, Rule::is]);
         let at = part(pair, Rule::at).and_then(|at| part(&at, Rule::address)).as_ref().map(named);
@@ -156,7 +156,7 @@ impl Reader {
         is.map(WrittenBinding::Variable).or(at.map(WrittenBinding::Address))
     }
 
-    /// Of these parts of a declaration there may be one.
+    /// Reports a second occurrence of declaration parts that may occur once.
     fn once(&mut self, pair: &Pair<'_, Rule>, rules: &[Rule]) {
         let mut parts = pair.clone().into_inner().filter(|part| rules.contains(&part.as_rule()));
         if let (Some(first), Some(second)) = (parts.next(), parts.next()) {
@@ -200,7 +200,7 @@ impl Reader {
         }
     }
 
-    /// What a pair of the rule `formula` says, unless it is too large; an error has been said then.
+    /// Converts a pair of the rule `formula`; `None`, with a diagnostic, if it is too large.
     fn formula(&mut self, pair: Pair<'_, Rule>) -> Option<Formula<Name>> {
         let is_chained = |p: &Pair<'_, Rule>| matches!(p.as_rule(), Rule::implies | Rule::iff);
         let chained = |pair: &Pair<'_, Rule>| pair.clone().into_inner().filter(is_chained).count();
@@ -227,10 +227,10 @@ impl Reader {
         Some(among(&word, parts?))
     }
 
-    /// Says why a piece is none of what can stand there.
+    /// Explains why a piece cannot be parsed.
     fn bad(&mut self, pair: &Pair<'_, Rule>, rules: &[Rule], text: &str) {
         let start = pair.as_span().start();
-        // A block that is never closed reaches to the end, and what is wrong may stand far behind its beginning.
+        // An unclosed block reaches to the end of the file, and the error may be far after its beginning.
         let rest = &text[start..];
         let begins = |word: &str| {
             let head = rest.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
@@ -259,14 +259,14 @@ impl Reader {
                 Diagnostic::new(Code::SifSyntax, place, "this cannot stand here").help(like(rules[0]))
             }
         };
-        // What follows from one mistake is not said again.
+        // Follow-up errors at the same place are suppressed.
         if self.diagnostics.last().is_none_or(|last| last.span() != diagnostic.span()) {
             self.diagnostics.push(diagnostic);
         }
     }
 }
 
-/// An example of what a rule reads.
+/// Example of what a rule accepts.
 fn like(rule: Rule) -> &'static str {
     match rule {
         Rule::zone => "a zone is like `zone PS \"what it is\" { … }`",
@@ -289,7 +289,7 @@ static PRATT: LazyLock<PrattParser<Rule>> = LazyLock::new(|| {
     connectives!(Rule).op(left(Rule::equal) | left(Rule::unequal)).op(Op::prefix(Rule::negations))
 });
 
-/// A formula while it is put together: whether it stands in parentheses, and so takes no further operand.
+/// Formula under construction, and whether it is closed (in parentheses), so that it takes no further operand.
 type Part = (Formula<Name>, bool);
 
 fn formula(pairs: Pairs<'_, Rule>) -> Formula<Name> {
@@ -304,7 +304,7 @@ fn formula(pairs: Pairs<'_, Rule>) -> Formula<Name> {
     parsed.0
 }
 
-/// Two formulas with an operator between them; `a & b & c` is one conjunction of three.
+/// Joins two formulas by an operator; `a & b & c` becomes one conjunction of three.
 fn joined((left, is_closed): Part, operator: Rule, right: Formula<Name>) -> Part {
     let operator = match operator {
         Rule::and => Operator::And,
@@ -341,7 +341,7 @@ fn primary(pair: Pair<'_, Rule>) -> Formula<Name> {
     }
 }
 
-/// One of these at most, at least, or both. At least one of one is that one.
+/// At most, at least, or exactly one of the parts. At least one of a single part is that part.
 fn among(word: &Pair<'_, Rule>, mut parts: Vec<Formula<Name>>) -> Formula<Name> {
     match word.as_rule() {
         Rule::at_most_one => Formula::Gate(Operator::AtMostOne, parts),
@@ -355,7 +355,7 @@ fn is_true(truth: &Pair<'_, Rule>) -> bool {
     matches!(truth.as_str().as_bytes().first(), Some(b'1' | b't' | b'T'))
 }
 
-/// The first part of a pair that is of a rule.
+/// The first inner pair of a rule.
 fn part<'i>(pair: &Pair<'i, Rule>, rule: Rule) -> Option<Pair<'i, Rule>> {
     pair.clone().into_inner().find(|part| part.as_rule() == rule)
 }
@@ -381,7 +381,7 @@ fn explained(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
     diagnostic::expected(error, (text, start), Code::SifSyntax, "the end", name)
 }
 
-/// What a rule is called where it was expected.
+/// Name of a rule in messages about what was expected.
 fn name(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI => "the end",

@@ -1,30 +1,30 @@
-//! Test plans as data: which valuations are set, what is expected of all outputs, which faults that finds, what is left out.
+//! Test plans as data: valuations to set, expected outputs, mutation score, and what is left out.
 
 use fixedbitset::FixedBitSet;
 
 use super::diagram::Cube;
 use super::formula::SignalId;
 
-/// By which rule tests are chosen.
+/// Test selection criterion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Criterion {
-    /// Every valuation that can be and makes an output of the function TRUE: the seed paper's criterion.
+    /// Every allowed valuation that makes an output of the function TRUE: the seed paper's criterion.
     All,
-    /// Every valuation that can be.
+    /// Every allowed valuation.
     AllBoth,
-    /// Each condition of a formula decides its outcome alone, once TRUE and once FALSE.
+    /// MC/DC: each condition of a formula decides its outcome alone, once TRUE and once FALSE.
     Mcdc,
-    /// A near-smallest set on which every single fault that can be seen at all is seen.
+    /// A near-minimum set of tests that shows every detectable single fault.
     Faults,
-    /// Every two inputs have all values together that they can have.
+    /// Pairwise: any two inputs take all value combinations that are allowed.
     Pairs,
 }
 
 impl Criterion {
-    /// All of them.
+    /// All criteria.
     pub const ALL: [Self; 5] = [Self::All, Self::AllBoth, Self::Mcdc, Self::Faults, Self::Pairs];
 
-    /// What it is called on the command line.
+    /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -37,95 +37,96 @@ impl Criterion {
     }
 }
 
-/// The tests of one function.
+/// Test plan of one function.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The position of the function.
+    /// Position of the function.
     pub function: usize,
-    /// How its tests were chosen.
+    /// Criterion by which the tests were selected.
     pub criterion: Criterion,
-    /// The inputs that its outputs are computed from, in the order of its sheet: what differs from test to test. All others
-    /// have their rest value, or what the restrictions need beside that.
+    /// Inputs that the outputs are computed from, in the order of the function's sheet: the ones that tests vary. All
+    /// other inputs have their rest values, or values that the restrictions require.
     pub varied: Vec<SignalId>,
-    /// All outputs, of any function, that depend on these inputs: its own first. A test tells what each of them has to be.
+    /// Outputs of any function that depend on these inputs, the function's own first. A test states the expected value
+    /// of each.
     pub touched: Vec<SignalId>,
-    /// The tests, ordered so that few inputs are switched from one to the next.
+    /// Tests, ordered so that few inputs are switched from one to the next.
     pub tests: Vec<Test>,
-    /// Why these are not all tests of the criterion, if they are not: how many they are, what was not decided.
+    /// Reason why the tests do not satisfy the criterion completely, if so: their number, or what was not decided.
     pub incomplete: Option<String>,
-    /// What is to be said besides: conditions that decide nothing, values that two inputs cannot have together.
+    /// Further remarks: conditions that decide nothing, pairs of values that are not allowed.
     pub notes: Vec<String>,
-    /// Whether it is proved that no fewer tests would do.
+    /// Whether the number of tests is proved to be minimum.
     pub is_smallest: bool,
-    /// Where the valuations are too many to be listed: some of the cubes that they make up, of the inputs that vary.
+    /// If the valuations are too many to list: some cubes of them, over the varied inputs.
     pub cubes: Vec<Cube>,
-    /// Which single faults the tests find.
+    /// Mutation score of the tests.
     pub coverage: Coverage,
 }
 
-/// One test: inputs to set, outputs to expect.
+/// Test: inputs to set, outputs to expect.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Test {
-    /// All signals that are TRUE: inputs as they are set, outputs as they are expected.
+    /// Signals that are TRUE: inputs as set, outputs as expected.
     pub values: FixedBitSet,
-    /// What it is for, in a few words each: the condition it decides, the faults that only it finds. May be empty.
+    /// Purposes in a few words each: the condition decided, faults found by no other test. May be empty.
     pub purpose: Vec<String>,
 }
 
-/// How many single faults of a function's formulas a set of tests finds.
+/// Mutation score of a set of tests, for the single faults of a function's formulas.
 #[derive(Clone, Debug, Default)]
 pub struct Coverage {
-    /// For each class of faults, in the order of the table in the documents.
+    /// Scores by class of faults, in the order of the table in the documents.
     pub classes: Vec<ClassCoverage>,
-    /// The faults that can be seen and are not found.
+    /// Detectable faults that no test finds.
     pub missed: Vec<Missed>,
 }
 
-/// The same for one class.
+/// Mutation score for one class of faults.
 #[derive(Clone, Debug)]
 pub struct ClassCoverage {
-    /// What the class is called: `literal negation`.
+    /// Name of the class: `literal negation`.
     pub class: &'static str,
-    /// How many faults of it there are.
+    /// Number of faults of the class.
     pub faults: usize,
-    /// How many of them no valuation that can be shows.
+    /// Number of equivalent faults: no allowed valuation shows them.
     pub equivalent: usize,
-    /// How many of them the tests find.
+    /// Number of faults found.
     pub killed: usize,
-    /// Of how many it was not decided, within the limits, whether they can be seen.
+    /// Number of faults whose detectability was not decided within the limits.
     pub undecided: usize,
 }
 
-/// A fault that the tests do not find, though others would.
+/// Detectable fault that the tests do not find.
 #[derive(Clone, Debug)]
 pub struct Missed {
-    /// What the class is called.
+    /// Name of the class.
     pub class: &'static str,
-    /// The fault in words: "`ACC_Tst` negated in `… & !ACC_Tst & …`".
+    /// Fault in words: "`ACC_Tst` negated in `… & !ACC_Tst & …`".
     pub fault: String,
-    /// A valuation that can be and shows it: all signals that are TRUE.
+    /// Allowed valuation that shows the fault: signals that are TRUE.
     pub shown_by: FixedBitSet,
-    /// Why no test does: "all tests expect TRUE, and this fault only makes FALSE to TRUE".
+    /// Reason why no test finds it: "all tests expect TRUE, and this fault only makes FALSE to TRUE".
     pub why: String,
 }
 
-/// The valuations of a function that make an output TRUE, and which of them cannot be.
+/// Triggering valuations of a function (an output is TRUE), and those of them that restrictions exclude.
 #[derive(Clone, Debug)]
 pub struct Excluded {
-    /// The inputs that the function's outputs are computed from.
+    /// Inputs that the function's outputs are computed from.
     pub varied: Vec<SignalId>,
-    /// How many valuations its inputs have, as a decimal number.
+    /// Number of valuations of these inputs, in decimal.
     pub valuations: String,
-    /// How many make an output TRUE; nothing if that could not be counted.
+    /// Number of triggering valuations; `None` if it could not be counted.
     pub triggering: Option<String>,
-    /// How many of these cannot be.
+    /// Number of triggering valuations that are excluded.
     pub excluded: Option<String>,
-    /// For each restriction that excludes any: its position among all restrictions, how many of the triggering valuations it
-    /// excludes, and how many no other restriction does.
+    /// For each restriction that excludes any: its position among all restrictions, the number of triggering valuations
+    /// it excludes, and the number it excludes alone.
     pub by_restriction: Vec<(usize, String, String)>,
-    /// The excluded valuations with the positions of all restrictions that exclude them; only if they are few. If no restriction
-    /// does alone, because they speak of further inputs, these exclude it together.
+    /// Excluded valuations with the positions of all restrictions that exclude them, if they are few. Where no single
+    /// restriction does, because further inputs are involved, these exclude the valuation jointly.
     pub listed: Option<Vec<(FixedBitSet, Vec<usize>)>>,
-    /// Some of the cubes that the excluded valuations make up, if they are not listed.
+    /// Some cubes of the excluded valuations, if they are not listed.
     pub cubes: Vec<Cube>,
 }

@@ -1,14 +1,14 @@
-//! A specification as requirements on a program, for `petril check`: the road by exploration, which shares nothing with the proof
-//! by gates, and which decides what is said of time.
+//! Export of a specification as requirements on a program, for `petril check`: verification by exploration, independent
+//! of the proof by gates, which also decides delays.
 
 use std::fmt::Write;
 
 use super::formula::{Formula, Operator};
 use super::specification::{Binding, Kind, Scope, Signal, Specification};
 
-/// The text of a requirement file: restrictions of the whole system are assumed, those of a zone or a function are premises of
-/// its requirements, which have to be kept by all scans so far. Outputs are
-/// named as the program does, also where another formula uses them; auxiliary values are written out.
+/// Text of a requirement file. Restrictions of the whole system become assumptions; those of a zone or a function
+/// become premises of its requirements, which all scans so far have to satisfy. Outputs have the names of the program's
+/// variables, also in other formulas; auxiliary values are expanded.
 #[must_use]
 pub fn requirements(specification: &Specification) -> String {
     let mut text = String::new();
@@ -34,7 +34,7 @@ pub fn requirements(specification: &Specification) -> String {
             let signal = specification.signal(output);
             let Kind::Defined { formula, latched, delayed, .. } = &signal.kind else { continue };
             let (name, formula) = (variable(signal), written(formula));
-            // Nothing is remembered from before the first scan, whatever the variable begins with.
+            // Nothing is latched before the first scan, whatever the variable's initial value is.
             let before = format!("pre({name}) & !at first scan");
             let is_one = function.outputs.len() == 1;
             let title = if is_one { function.title.as_deref() } else { signal.description.as_deref() };
@@ -67,12 +67,12 @@ pub fn requirements(specification: &Specification) -> String {
     text
 }
 
-/// A text in quotes behind a name.
+/// Quoted text after a name.
 fn quoted(text: Option<&str>) -> String {
     text.map(|text| format!(" \"{}\"", text.replace('"', "'"))).unwrap_or_default()
 }
 
-/// What the program calls a signal; its own name where only an address is known.
+/// Name of a signal in the program; its own name if only an address is known.
 fn variable(signal: &Signal) -> &str {
     match &signal.binding {
         Some(Binding::Variable(name, _)) => name,
@@ -84,7 +84,7 @@ fn formula_text(specification: &Specification, formula: &Formula) -> String {
     plain(specification, formula).text(&|signal| variable(specification.signal(signal)))
 }
 
-/// The same in the operators that requirements have, with auxiliary values written out.
+/// Rewrites a formula to the operators of requirements, with auxiliary values expanded.
 fn plain(specification: &Specification, formula: &Formula) -> Formula {
     let gate = |operator, operands| Formula::Gate(operator, operands);
     match formula {
@@ -112,7 +112,7 @@ fn plain(specification: &Specification, formula: &Formula) -> Formula {
     }
 }
 
-/// Each excludes those that come after it.
+/// Each operand excludes those after it.
 fn at_most_one(operands: &[Formula]) -> Formula {
     let pairs = (1..operands.len()).map(|next| {
         let later = match &operands[next..] {

@@ -1,6 +1,7 @@
-//! What is written to a [`Specification`]: names resolved, definitions in order, all errors.
+//! Name resolution: [`Written`] to [`Specification`], with definitions in order and all errors.
 //!
-//! Names are without case, as in IL. Inputs, outputs and functions are known everywhere, auxiliary values in their function.
+//! Names are case-insensitive, as in IL. Inputs, outputs and functions have global scope, auxiliary values that of
+//! their function.
 
 mod in_order;
 
@@ -15,7 +16,7 @@ use petril_base::source::Source;
 use petril_lang::syntax::ast::key;
 
 impl Specification {
-    /// Reads files as one specification, with the diagnostics of each. There is none if any of these is an error.
+    /// Reads files as one specification, with the diagnostics of each; `None` if any diagnostic is an error.
     #[must_use]
     pub fn read(sources: &[Source]) -> (Option<Self>, Vec<Vec<Diagnostic>>) {
         let (written, diagnostics): (Vec<Written>, Vec<Vec<Diagnostic>>) = sources.iter().map(parse).unzip();
@@ -39,22 +40,22 @@ impl Specification {
     }
 }
 
-/// What is being put together.
+/// Resolution under way.
 struct Resolver<'s> {
     sources: &'s [Source],
     specification: Specification,
-    /// Inputs and outputs.
+    /// Inputs and outputs by name.
     names: HashMap<String, SignalId>,
-    /// Auxiliary values: function and name.
+    /// Auxiliary values by function and name.
     own: HashMap<(usize, String), SignalId>,
-    /// The rest values that are written.
+    /// Rest values given explicitly.
     rests: HashMap<SignalId, bool>,
-    /// For each file, where its functions are among all.
+    /// For each file, the position of its first function among all.
     functions: Vec<usize>,
-    /// The same for its zones.
+    /// For each file, the positions of its zones among all.
     zones: Vec<Vec<usize>>,
     diagnostics: Vec<Vec<Diagnostic>>,
-    /// A file could not be read as a whole, so that what is missing may stand in what was not read.
+    /// Whether a file could not be read completely, so that a missing declaration may be in the unread part.
     is_quiet: bool,
 }
 
@@ -87,7 +88,7 @@ impl Resolver<'_> {
             let at = Place::default();
             self.report(at, Diagnostic::new(Code::SifNotDefined, at.span, message).help(help));
         }
-        // An unknown name stands for any signal.
+        // An unknown name is a dummy signal.
         if !self.diagnostics.iter().any(|list| any_error(list)) {
             self.put_in_order();
         }
@@ -99,7 +100,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Points to another place too, which may be in another file.
+    /// Adds a second place, which may be in another file.
     fn with(&self, diagnostic: Diagnostic, from: Place, to: Place, text: &str) -> Diagnostic {
         if from.file == to.file {
             return diagnostic.also(to.span, text);
@@ -109,7 +110,7 @@ impl Resolver<'_> {
         diagnostic.help(format!("{text}: {}:{line}:{column}", source.name()))
     }
 
-    /// The title, the zones, and the functions without what they hold.
+    /// Declares the title, the zones, and the functions without their contents.
     fn frame(&mut self, file: usize, written: &Written) {
         for title in &written.titles {
             if self.specification.title.is_some() {
@@ -121,7 +122,7 @@ impl Resolver<'_> {
         }
         let mut zones = Vec::new();
         for (name, title) in &written.zones {
-            // A zone may go on, in this file or another.
+            // A zone may be continued, in this file or another.
             let known = self.specification.zones.iter().position(|zone| key(&zone.name) == key(&name.text));
             let zone = known.unwrap_or_else(|| {
                 self.specification.zones.push(Zone { name: name.text.clone(), title: None });
@@ -155,7 +156,7 @@ impl Resolver<'_> {
         self.zones.push(zones);
     }
 
-    /// The outputs and auxiliary values of a function, their formulas still left out.
+    /// Declares the outputs and auxiliary values of a function, without their formulas.
     fn define(&mut self, file: usize, of: usize, function: &WrittenFunction) {
         for output in &function.outputs {
             let place = Place { file, span: output.name.span };
@@ -220,7 +221,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether an output has the name of another signal; an error has been said then.
+    /// Whether the name of an output is taken; reported if so.
     fn is_taken(&mut self, name: &Name, place: Place) -> bool {
         let Some(&first) = self.names.get(&key(&name.text)) else { return false };
         let message = format!("`{}` is an output already", name.text);
@@ -235,7 +236,7 @@ impl Resolver<'_> {
         SignalId(self.specification.signals.len() - 1)
     }
 
-    /// An input: a new one, one that is known, or the output of another function.
+    /// Declares an input: a new one, a known one, or the output of another function.
     fn input(&mut self, file: usize, input: &WrittenInput) {
         let place = Place { file, span: input.name.span };
         let function = input.function.map(|function| self.functions[file] + function);
@@ -268,7 +269,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// What a further declaration adds to a signal; an error if it contradicts.
+    /// Merges a further declaration of a signal; reports a contradiction.
     fn agree(&mut self, id: SignalId, input: &WrittenInput, binding: Option<Binding>, place: Place, of: Option<usize>) {
         let outputs = of.map(|of| self.specification.functions[of].outputs.contains(&id));
         let rest = input.rest.map(|rest| *self.rests.entry(id).or_insert(rest));
@@ -306,7 +307,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The formulas of a function.
+    /// Resolves the formulas of a function.
     fn formulas(&mut self, file: usize, of: usize, function: &WrittenFunction) {
         for (name, written) in &function.equations {
             let name = key(&name.text);
@@ -351,7 +352,7 @@ impl Resolver<'_> {
         self.specification.restrictions.push(Restriction { name, sentence, scope, allowed, text, place });
     }
 
-    /// A formula with its names resolved; every name that means nothing has been reported.
+    /// Resolves the names of a formula; unknown names are reported.
     fn formula(&mut self, file: usize, of: Option<usize>, written: &Formula<Name>) -> Formula {
         let mut unknown = Vec::new();
         let formula = written.map(&mut |name| {

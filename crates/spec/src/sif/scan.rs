@@ -1,13 +1,13 @@
-//! What is looked at before the grammar reads a file: texts and comments that never end, and parentheses too deep to follow.
+//! Checks before a file is parsed: unclosed texts and comments, and parentheses nested too deep.
 
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// How deeply parentheses may be nested, and how many implications may follow each other. Whatever walks formulas stays
-/// within its stack.
+/// Upper bound on nested parentheses, and on consecutive implications, so that recursion over formulas stays within the
+/// stack.
 pub(super) const MAX_DEPTH: usize = 100;
 
-/// Where the innermost `{` stands that is never closed, if there is one; an error if the file is unreadable as a whole.
+/// Position of the innermost unclosed `{`, if any; an error if the file cannot be read at all.
 pub(super) fn scan(text: &str) -> Result<Option<usize>, Diagnostic> {
     let bytes = text.as_bytes();
     let error = |at: usize, length: usize, message: String, help: &str| {
@@ -15,7 +15,7 @@ pub(super) fn scan(text: &str) -> Result<Option<usize>, Diagnostic> {
     };
     let (mut at, mut depth) = (0, 0_usize);
     let mut open = Vec::new();
-    // A text that holds the end of a statement and of a line has probably lost its quotation mark.
+    // A text that contains the ends of a statement and a line has probably lost its quotation mark.
     let mut doubtful = None;
     while at < bytes.len() {
         let rest = &text[at..];
@@ -52,7 +52,7 @@ pub(super) fn scan(text: &str) -> Result<Option<usize>, Diagnostic> {
             }
             b'(' => depth += 1,
             b')' => depth = depth.saturating_sub(1),
-            // A zone, a function and a section are open at most.
+            // At most a zone, a function and a section are open.
             b';' => depth = depth.min(3),
             _ => {}
         }
@@ -65,7 +65,7 @@ pub(super) fn scan(text: &str) -> Result<Option<usize>, Diagnostic> {
     Ok(open.pop())
 }
 
-/// Whether a line of a text ends with `;`, and another follows.
+/// Whether a line of a text, not the last one, ends with `;`, `{` or `}`.
 fn loses_its_end(text: &str) -> bool {
     text.lines().rev().skip(1).any(|line| line.trim_end().ends_with([';', '{', '}']))
 }

@@ -1,7 +1,7 @@
-//! Satisfiability: the only file that knows the solver.
+//! Satisfiability: the only file that uses the SAT solver.
 //!
-//! A [`Literal`] stands for a condition. Gates of literals are literals again, with clauses that say what they mean (Tseitin,
-//! "On the complexity of derivation in propositional calculus", 1968); the same gate is made once.
+//! Gates over [`Literal`]s are literals again, defined by clauses (Tseitin, "On the complexity of derivation in
+//! propositional calculus", 1968); equal gates are shared.
 
 use std::collections::HashMap;
 use std::ops::Not;
@@ -12,7 +12,7 @@ use rustc_hash::FxBuildHasher;
 
 use super::formula::{Formula, Operator, SignalId};
 
-/// A condition, or its opposite: `!literal`.
+/// Literal: a Boolean variable or its negation, `!literal`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Literal(Lit);
 
@@ -24,21 +24,21 @@ impl Not for Literal {
     }
 }
 
-/// What a solver says.
+/// Answer of the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// There is a model; [`Solver::value`] tells it.
+    /// A model exists; read it by [`Solver::value`].
     Satisfiable,
-    /// There is none; [`Solver::core`] tells which assumptions are to blame.
+    /// No model exists; [`Solver::core`] returns the assumptions responsible.
     Unsatisfiable,
-    /// It was told to stop.
+    /// The solver was stopped.
     Stopped,
 }
 
-/// Whether the work is to end.
+/// Callback that returns whether to stop.
 pub type Stop = Arc<dyn Fn() -> bool + Send + Sync>;
 
-/// Clauses, and what satisfies them.
+/// SAT solver with incremental clauses.
 pub struct Solver {
     inner: batsat::Solver<BasicCallbacks>,
     truth: Literal,
@@ -52,7 +52,7 @@ impl Default for Solver {
 }
 
 impl Solver {
-    /// A solver without clauses, which looks at `stop` again and again.
+    /// Creates a solver without clauses that polls `stop`.
     #[must_use]
     pub fn new(stop: &Stop) -> Self {
         let mut callbacks = BasicCallbacks::new();
@@ -64,29 +64,29 @@ impl Solver {
         Self { inner, truth, gates: HashMap::default() }
     }
 
-    /// A condition that nothing is known of.
+    /// New unconstrained variable.
     pub fn fresh(&mut self) -> Literal {
         Literal(Lit::new(self.inner.new_var_default(), true))
     }
 
-    /// What is always so, or never.
+    /// Constant literal.
     #[must_use]
     pub fn constant(&self, value: bool) -> Literal {
         if value { self.truth } else { !self.truth }
     }
 
-    /// From now on, one of these at least is true.
+    /// Adds a clause: at least one of these is true.
     pub fn require(&mut self, any: impl IntoIterator<Item = Literal>) {
         let mut clause: Vec<Lit> = any.into_iter().map(|literal| literal.0).collect();
         self.inner.add_clause_reuse(&mut clause);
     }
 
-    /// All of these.
+    /// Conjunction.
     pub fn and(&mut self, all: impl IntoIterator<Item = Literal>) -> Literal {
         let mut all: Vec<Literal> = all.into_iter().filter(|literal| *literal != self.truth).collect();
         all.sort_unstable();
         all.dedup();
-        // A condition and its opposite are neighbours now.
+        // A literal and its negation are adjacent after sorting.
         if all.contains(&!self.truth) || all.windows(2).any(|pair| pair[0] == !pair[1]) {
             return !self.truth;
         }
@@ -103,12 +103,12 @@ impl Solver {
         }
     }
 
-    /// One of these at least.
+    /// Disjunction.
     pub fn or(&mut self, any: impl IntoIterator<Item = Literal>) -> Literal {
         !self.and(any.into_iter().map(|literal| !literal))
     }
 
-    /// One of both and not the other.
+    /// Exclusive or.
     pub fn xor(&mut self, a: Literal, b: Literal) -> Literal {
         if a == self.constant(false) || b == self.constant(false) {
             return if a == self.constant(false) { b } else { a };
@@ -119,14 +119,14 @@ impl Solver {
         if a == b || a == !b {
             return self.constant(a != b);
         }
-        // The gate of the plain conditions, turned round for each of them that was not.
+        // The gate is built over positive literals, and negated for an odd number of negations.
         let (plain_a, plain_b) = (Literal(Lit::new(a.0.var(), true)), Literal(Lit::new(b.0.var(), true)));
         let is_turned = (a != plain_a) != (b != plain_b);
         let gate = self.gate(false, plain_a.min(plain_b), plain_a.max(plain_b));
         if is_turned { !gate } else { gate }
     }
 
-    /// A conjunction of two, or an exclusive disjunction, as it was made before if it was.
+    /// Shared binary gate: conjunction or exclusive or.
     fn gate(&mut self, is_and: bool, a: Literal, b: Literal) -> Literal {
         if let Some(&gate) = self.gates.get(&(is_and, a, b)) {
             return gate;
@@ -146,7 +146,7 @@ impl Solver {
         gate
     }
 
-    /// What a formula says, where signals are these literals.
+    /// Encodes a formula over these literals.
     pub fn formula(&mut self, formula: &Formula, value: &impl Fn(SignalId) -> Literal) -> Literal {
         match formula {
             Formula::Constant(truth) => self.constant(*truth),
@@ -159,7 +159,7 @@ impl Solver {
         }
     }
 
-    /// What an operator makes of its operands.
+    /// Encodes an operator.
     pub fn operator(&mut self, operator: Operator, operands: &[Literal]) -> Literal {
         let odd = |solver: &mut Self| operands.iter().fold(!solver.truth, |odd, &operand| solver.xor(odd, operand));
         match operator {
@@ -182,7 +182,7 @@ impl Solver {
         }
     }
 
-    /// Whether one at least is true, and whether two are.
+    /// Whether at least one operand is true, and whether at least two are.
     fn ones(&mut self, operands: &[Literal]) -> (Literal, Literal) {
         let (mut one, mut two) = (!self.truth, !self.truth);
         for &operand in operands {
@@ -193,7 +193,7 @@ impl Solver {
         (one, two)
     }
 
-    /// Looks for a model in which all of these are true.
+    /// Searches for a model under assumptions.
     pub fn solve(&mut self, assumed: &[Literal]) -> Answer {
         let assumed: Vec<Lit> = assumed.iter().map(|literal| literal.0).collect();
         let answer = self.inner.solve_limited(&assumed);
@@ -206,13 +206,13 @@ impl Solver {
         }
     }
 
-    /// Whether it is true in the model that was found last. What the model leaves open is FALSE.
+    /// Value in the model found last; unassigned variables are FALSE.
     #[must_use]
     pub fn value(&self, literal: Literal) -> bool {
         self.inner.value_lit(literal.0) == lbool::TRUE
     }
 
-    /// Assumptions that cannot all be true, after [`Answer::Unsatisfiable`]: not always the fewest.
+    /// Unsatisfiable core of the assumptions, after [`Answer::Unsatisfiable`]; not always minimal.
     #[must_use]
     pub fn core(&self, assumed: &[Literal]) -> Vec<Literal> {
         let core = self.inner.unsat_core();

@@ -1,140 +1,140 @@
-//! What a safety system has to compute: signals, functions, zones and restrictions, with all names resolved.
+//! Specification of a safety system: signals, functions, zones and restrictions, with all names resolved.
 
 use fixedbitset::FixedBitSet;
 
 use super::formula::{Formula, SignalId};
 use petril_base::source::Span;
 
-/// A whole specification, of one file or several.
+/// Specification, read from one or several files.
 #[derive(Clone, Debug, Default)]
 pub struct Specification {
-    /// What the system is called.
+    /// Name of the system.
     pub title: Option<String>,
     /// Groups of functions.
     pub zones: Vec<Zone>,
     /// Inputs, outputs and auxiliary values.
     pub signals: Vec<Signal>,
-    /// The functions in the order of the files.
+    /// Functions in the order of the files.
     pub functions: Vec<Function>,
-    /// What inputs cannot be.
+    /// Restrictions on inputs.
     pub restrictions: Vec<Restriction>,
-    /// The signals with a definition, each behind those it uses.
+    /// Definitions in topological order: each after those it uses.
     pub order: Vec<SignalId>,
 }
 
-/// A group of functions, with a name and, perhaps, words for people.
+/// Group of functions, with a name and possibly a title.
 #[derive(Clone, Debug)]
 pub struct Zone {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What it is called.
+    /// Title.
     pub title: Option<String>,
 }
 
 /// A safety instrumented function, in the three sections of the seed paper's template.
 #[derive(Clone, Debug)]
 pub struct Function {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What it is called.
+    /// Title.
     pub title: Option<String>,
-    /// Its zone: the position among the zones.
+    /// Position of its zone among the zones.
     pub zone: Option<usize>,
-    /// Section 1: what is said of it for people, as pairs of a word and a text: `sil`, `3`.
+    /// Section 1: informal properties, as pairs of a word and a text: `sil`, `3`.
     pub informal: Vec<(String, String)>,
-    /// Section 2: the inputs it lists; some may be outputs of other functions.
+    /// Section 2: inputs listed; some may be outputs of other functions.
     pub inputs: Vec<SignalId>,
-    /// Section 2: its outputs.
+    /// Section 2: outputs.
     pub outputs: Vec<SignalId>,
-    /// Section 3: what it defines, outputs and auxiliary values, in the order in which they are written.
+    /// Section 3: definitions, outputs and auxiliary values, in the order in which they are written.
     pub equations: Vec<SignalId>,
-    /// Where it stands.
+    /// Place of the declaration.
     pub place: Place,
 }
 
-/// A value that is TRUE or FALSE.
+/// Boolean signal.
 #[derive(Clone, Debug)]
 pub struct Signal {
-    /// Its name as it was written first; auxiliary values begin with the name of their function: `F1.Trigger`.
+    /// Name as first written; that of an auxiliary value begins with its function: `F1.Trigger`.
     pub name: String,
-    /// What it is, for people.
+    /// Description in plain language.
     pub description: Option<String>,
-    /// What it is in the program.
+    /// Binding to the program.
     pub binding: Option<Binding>,
-    /// Where its value comes from.
+    /// Origin of the value.
     pub kind: Kind,
-    /// Where it is declared, or defined if it is not declared.
+    /// Place of the declaration, or of the definition if not declared.
     pub place: Place,
 }
 
-/// Where the value of a signal comes from.
+/// Origin of a signal's value.
 #[derive(Clone, Debug)]
 pub enum Kind {
-    /// From outside. At rest it has this value.
+    /// Input from outside.
     Input {
-        /// What it has where nothing is asked of it.
+        /// Value at rest: when no demand is present.
         rest: bool,
     },
-    /// A function computes it.
+    /// Value computed by a function.
     Defined {
-        /// The position of that function.
+        /// Position of the function.
         function: usize,
-        /// What it is.
+        /// Defining formula.
         formula: Formula,
-        /// Whether it goes out, or is only an auxiliary value.
+        /// Whether the signal is an output; else an auxiliary value.
         is_output: bool,
-        /// It is remembered until this is true and the formula false.
+        /// Reset condition of the latch, if the signal is latched; the formula has priority.
         latched: Option<Formula>,
-        /// It comes so many milliseconds after the formula has become true.
+        /// On-delay in milliseconds.
         delayed: Option<u32>,
-        /// Where the equation stands.
+        /// Place of the equation.
         place: Place,
     },
 }
 
-/// What a signal is called in the program.
+/// Binding of a signal to the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Binding {
-    /// A variable of this name: `is Valve`.
+    /// Variable of this name: `is Valve`.
     Variable(String, Place),
-    /// What is located there: `at %IX0.0`.
+    /// Variable located at this address: `at %IX0.0`.
     Address(String, Place),
 }
 
-/// Something that inputs cannot be.
+/// Restriction on inputs.
 #[derive(Clone, Debug)]
 pub struct Restriction {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What it says in the words of its author.
+    /// Sentence given by the author.
     pub sentence: Option<String>,
-    /// Whose valuations it restricts.
+    /// Scope.
     pub scope: Scope,
-    /// What is true of every valuation that can be.
+    /// Formula that every allowed valuation satisfies.
     pub allowed: Formula,
-    /// As it was written, on one line, without its name.
+    /// Text as written, on one line, without the name.
     pub text: String,
-    /// Where it stands.
+    /// Place of the declaration.
     pub place: Place,
 }
 
-/// Whose valuations a restriction restricts.
+/// Scope of a restriction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Those of all functions.
+    /// The whole system.
     System,
-    /// Those of the functions of a zone.
+    /// Functions of a zone.
     Zone(usize),
-    /// Those of one function.
+    /// A function.
     Function(usize),
 }
 
-/// Where something stands: the position of its file, and the bytes there.
+/// Place in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// The position of the file among those that were read.
+    /// Position of the file among those read.
     pub file: usize,
-    /// The bytes.
+    /// Byte range.
     pub span: Span,
 }
 
@@ -151,7 +151,7 @@ impl Specification {
         &self.signals[id.0].name
     }
 
-    /// What a signal is defined as; nothing if it is an input.
+    /// Defining formula of a signal; `None` for an input.
     #[must_use]
     pub fn definition(&self, id: SignalId) -> Option<&Formula> {
         match &self.signals[id.0].kind {
@@ -160,7 +160,8 @@ impl Specification {
         }
     }
 
-    /// What a signal is computed from, and reset by, in the order in which the formulas name it; nothing for an input.
+    /// Signals that a signal is computed from or reset by, in the order in which the formulas mention them; empty for
+    /// an input.
     #[must_use]
     pub fn uses(&self, id: SignalId) -> Vec<SignalId> {
         match &self.signals[id.0].kind {
@@ -171,30 +172,30 @@ impl Specification {
         }
     }
 
-    /// A formula as it is written.
+    /// Text of a formula.
     #[must_use]
     pub fn text(&self, formula: &Formula) -> String {
         formula.text(&|signal| self.name(signal))
     }
 
-    /// The inputs, in the order in which they were declared.
+    /// Inputs in the order of declaration.
     pub fn inputs(&self) -> impl Iterator<Item = SignalId> {
         let is_input = |id: &SignalId| matches!(self.signals[id.0].kind, Kind::Input { .. });
         (0..self.signals.len()).map(SignalId).filter(is_input)
     }
 
-    /// The outputs of all functions, in the order of the functions.
+    /// Outputs of all functions, in the order of the functions.
     pub fn outputs(&self) -> impl Iterator<Item = SignalId> {
         self.functions.iter().flat_map(|function| function.outputs.iter().copied())
     }
 
-    /// The value an input has at rest; FALSE for anything else.
+    /// Value of an input at rest; FALSE for other signals.
     #[must_use]
     pub fn rest(&self, id: SignalId) -> bool {
         matches!(self.signals[id.0].kind, Kind::Input { rest: true })
     }
 
-    /// The restrictions of a function's valuations: its own, its zone's, and the system's.
+    /// Restrictions that apply to a function: its own, its zone's, and the system's.
     pub fn restrictions_of(&self, function: usize) -> impl Iterator<Item = &Restriction> {
         let zone = self.functions[function].zone;
         self.restrictions.iter().filter(move |restriction| match restriction.scope {
@@ -204,7 +205,7 @@ impl Specification {
         })
     }
 
-    /// The set of these signals. All sets of signals that are passed around are as long as there are signals.
+    /// The set of these signals. All sets of signals have the capacity for all signals.
     #[must_use]
     pub fn valuation(&self, ones: impl IntoIterator<Item = SignalId>) -> FixedBitSet {
         let mut set = FixedBitSet::with_capacity(self.signals.len());
@@ -212,7 +213,7 @@ impl Specification {
         set
     }
 
-    /// Computes what is defined from the inputs, on 64 valuations at once: one word per signal.
+    /// Computes the definitions from the inputs, on 64 valuations at once: one word per signal.
     pub fn settle(&self, words: &mut [u64]) {
         for &id in &self.order {
             if let Some(formula) = self.definition(id) {
@@ -221,7 +222,7 @@ impl Specification {
         }
     }
 
-    /// The same for any number of valuations: each set gets what is defined, too.
+    /// Computes the definitions in any number of valuations.
     pub fn settle_all(&self, valuations: &mut [FixedBitSet]) {
         for batch in valuations.chunks_mut(64) {
             let mut words = vec![0_u64; self.signals.len()];
@@ -235,7 +236,7 @@ impl Specification {
         }
     }
 
-    /// All signals that are TRUE where the inputs in this set are. What is latched or delayed has the value of its formula.
+    /// Signals that are TRUE for these inputs. A latched or delayed signal has the value of its formula.
     #[must_use]
     pub fn settled(&self, inputs: &FixedBitSet) -> FixedBitSet {
         let mut words: Vec<u64> = (0..self.signals.len()).map(|id| u64::from(inputs.contains(id))).collect();

@@ -1,29 +1,29 @@
-//! A specification file as it is written, before names mean anything.
+//! Syntax tree of a specification file, before name resolution.
 
 use super::formula::Formula;
 use petril_base::source::Span;
 
-/// A name where it stands.
+/// Name with its position.
 #[derive(Clone, Debug)]
 pub struct Name {
     /// The name.
     pub text: String,
-    /// Where it stands.
+    /// Position.
     pub span: Span,
 }
 
-/// What stands in a file. Positions are among the file's own zones and functions.
+/// Contents of a file. Positions refer to the file's own zones and functions.
 #[derive(Clone, Debug, Default)]
 pub struct Written {
     /// `system "…";`
     pub titles: Vec<Name>,
-    /// The zones: name and title.
+    /// Zones: name and title.
     pub zones: Vec<(Name, Option<String>)>,
-    /// The functions.
+    /// Functions.
     pub functions: Vec<WrittenFunction>,
-    /// The inputs outside functions and in their interfaces.
+    /// Inputs, both outside functions and in their interfaces.
     pub inputs: Vec<WrittenInput>,
-    /// The restrictions.
+    /// Restrictions.
     pub restrictions: Vec<WrittenRestriction>,
 }
 

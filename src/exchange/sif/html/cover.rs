@@ -1,4 +1,4 @@
-//! The first page: what was tested, how, by whom, and a list of the functions.
+//! Cover page: what was tested, how, by whom, and a list of the functions.
 
 use sha2::{Digest as _, Sha256};
 
@@ -9,7 +9,7 @@ use crate::exchange::sif::{Ran, Sheets};
 use petril_base::source::Source;
 use petril_spec::sif::{Criterion, Start};
 
-/// The cover.
+/// The cover page.
 pub fn cover(sheets: &Sheets<'_>, title: &str) -> String {
     let mut facts = Vec::new();
     let mut fact = |name: &str, value: String| facts.push(format!("<dt>{name}</dt><dd>{value}</dd>\n"));
@@ -35,7 +35,7 @@ pub fn cover(sheets: &Sheets<'_>, title: &str) -> String {
     )
 }
 
-/// A file, and what tells it from any other version of it.
+/// File name with the hash that identifies its version.
 fn file(source: &Source) -> String {
     let hash: String = Sha256::digest(source.text()).iter().map(|byte| format!("{byte:02x}")).collect();
     format!("{} <small>SHA-256 <code>{hash}</code></small>", code(source.name()))

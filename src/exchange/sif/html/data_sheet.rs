@@ -1,4 +1,4 @@
-//! The data sheet of a function, in the three sections of the seed paper's template.
+//! Data sheet of a function, in the three sections of the seed paper's template.
 
 use super::markup::{code, escaped, row, table};
 use super::{delay, latch, once, paper, restrictions};
@@ -6,7 +6,7 @@ use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::truth;
 use petril_spec::sif::{Binding, Kind, Plan, SignalId, Specification};
 
-/// The data sheet.
+/// The data sheet of a function.
 pub fn data_sheet(sheets: &Sheets<'_>, plan: &Plan) -> String {
     let specification = sheets.specification;
     let function = &specification.functions[plan.function];
@@ -44,7 +44,7 @@ fn informal(said: &[(String, String)]) -> String {
     )
 }
 
-/// A word with a capital letter.
+/// Capitalises a word.
 fn capital(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map(|first| first.to_uppercase().collect::<String>() + letters.as_str()).unwrap_or_default()
@@ -53,7 +53,7 @@ fn capital(word: &str) -> String {
 fn interface(specification: &Specification, plan: &Plan) -> String {
     let function = &specification.functions[plan.function];
     let inputs = once(function.inputs.iter().chain(&plan.varied).copied());
-    // Without this column, what a signal is in the program has its name.
+    // Without this column, signals have the names of their variables.
     let is_bound = inputs.iter().chain(&function.outputs).any(|id| specification.signal(*id).binding.is_some());
     let line = |kind: &str, id: SignalId| {
         let signal = specification.signal(id);
@@ -87,13 +87,13 @@ fn interface(specification: &Specification, plan: &Plan) -> String {
     format!("<h3>2 Interface</h3>\n{}", table("plain interface", &heads, rows.into_iter().chain(outputs)))
 }
 
-/// A line with the blanks at its beginning.
+/// A line with its indentation.
 fn indented(line: &str) -> String {
     let blanks = line.len() - line.trim_start().len();
     " ".repeat(blanks) + &escaped(line)
 }
 
-/// A time as people read it.
+/// A time in seconds or milliseconds.
 pub fn time(ms: u32) -> String {
     if ms.is_multiple_of(1000) { format!("{} s", ms / 1000) } else { format!("{ms} ms") }
 }

@@ -1,13 +1,13 @@
-//! Which faults tests find and miss: faults of the formulas, and, if they were run, of the program.
+//! Mutation score of tests: faults of the formulas and, if the tests were run, of the program.
 
 use super::markup::{counted, escaped, row, table, ticked};
 use crate::exchange::sif::Ran;
 use petril_spec::sif::{Coverage, Fate, Hunt, Mutant, SignalId, Specification};
 
-/// So many faults are listed at most.
+/// Upper bound on faults listed.
 const MAX_LISTED: usize = 60;
 
-/// Faults of the formulas of a function.
+/// Section on faults of the formulas of a function.
 pub fn coverage(specification: &Specification, coverage: &Coverage) -> String {
     if coverage.classes.is_empty() {
         return String::new();
@@ -43,7 +43,7 @@ pub fn coverage(specification: &Specification, coverage: &Coverage) -> String {
     out + "</div>\n"
 }
 
-/// Faults of the program.
+/// Section on faults of the program.
 pub fn hunt(ran: &Ran<'_>, hunt: &Hunt) -> String {
     let line =
         |name: &str, counts: [usize; 5]| row(std::iter::once(escaped(name)).chain(counts.map(|c| c.to_string())));

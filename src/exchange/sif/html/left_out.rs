@@ -1,4 +1,4 @@
-//! What is not tested, and which restriction says that it cannot be.
+//! Excluded valuations, with the restrictions that exclude them.
 
 use fixedbitset::FixedBitSet;
 
@@ -6,7 +6,7 @@ use super::markup::{code, escaped, row, table};
 use crate::exchange::sif::Sheets;
 use petril_spec::sif::{Excluded, SignalId};
 
-/// What is left out of the tests of a function.
+/// Section on what is left out of the tests of a function.
 pub fn left_out(sheets: &Sheets<'_>, excluded: &Excluded) -> String {
     let specification = sheets.specification;
     let name = |at: usize| specification.restrictions[at].name.as_str();

@@ -1,4 +1,4 @@
-//! Which columns a test sheet has: one for each signal if they are few, else a list of what is not at rest.
+//! Columns of a test sheet: one per signal if they are few, else a list of deviations from rest.
 
 use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::truth;
@@ -7,25 +7,25 @@ use petril_spec::sif::{Plan, SignalId, Test};
 use super::markup::escaped;
 use super::once;
 
-/// More inputs, or more outputs, are told in words.
+/// Upper bounds on inputs and outputs with columns of their own; more are listed in words.
 const MAX_INPUTS: usize = 14;
 const MAX_OUTPUTS: usize = 8;
 
-/// More columns need paper across.
+/// Upper bound on columns in portrait format.
 const MAX_UPRIGHT: usize = 11;
 
-/// The columns of a sheet.
+/// Columns of a test sheet.
 pub struct Matrix<'a> {
     sheets: &'a Sheets<'a>,
-    /// Inputs with a column of their own; nothing if they are told in words.
+    /// Inputs with columns of their own; `None` if inputs are listed in words.
     pub inputs: Option<Vec<SignalId>>,
-    /// The same for outputs.
+    /// Outputs with columns of their own; `None` if outputs are listed in words.
     pub outputs: Option<Vec<SignalId>>,
     all_outputs: Vec<SignalId>,
 }
 
 impl<'a> Matrix<'a> {
-    /// The columns of a plan.
+    /// Chooses the columns for a plan.
     pub fn new(sheets: &'a Sheets<'a>, plan: &Plan) -> Self {
         let specification = sheets.specification;
         let off = |input: &SignalId| {
@@ -41,19 +41,19 @@ impl<'a> Matrix<'a> {
         }
     }
 
-    /// Whether it is printed across.
+    /// Whether the sheet is printed in landscape format.
     pub fn is_wide(&self) -> bool {
         let columns = |ids: &Option<Vec<SignalId>>| ids.as_ref().map_or(MAX_UPRIGHT / 2, Vec::len);
         columns(&self.inputs) + columns(&self.outputs) > MAX_UPRIGHT
     }
 
-    /// How many columns inputs and outputs have.
+    /// Number of columns of inputs and of outputs.
     pub fn widths(&self) -> (usize, usize) {
         let width = |ids: &Option<Vec<SignalId>>| ids.as_ref().map_or(1, Vec::len);
         (width(&self.inputs), width(&self.outputs))
     }
 
-    /// The heads of the columns: names that stand upright, or nothing below the head of the group.
+    /// Column heads: vertical names, or none below the head of the group.
     pub fn heads(&self) -> String {
         let head = |ids: &Option<Vec<SignalId>>, class: &str| match ids {
             None => format!("<th class=\"begins {class}\"></th>"),
@@ -69,7 +69,7 @@ impl<'a> Matrix<'a> {
         head(&self.inputs, "in") + &head(&self.outputs, "out")
     }
 
-    /// The cells of a test; what differs from the test before is marked.
+    /// Cells of a test; changes from the previous test are marked.
     pub fn cells(&self, test: &Test, before: Option<&Test>, wrong: &[SignalId]) -> String {
         let specification = self.sheets.specification;
         let is = |test: &Test, id: SignalId| test.values.contains(id.0);

@@ -1,8 +1,8 @@
-//! The protocol of tests as one page, to be printed, filled in and signed: a cover, and for each function its data sheet, its
-//! tests with boxes to tick, what is left out, and which faults the tests find.
+//! Test protocol as one page, to be printed, filled in and signed: a cover, and for each function its data sheet, its
+//! tests with checkboxes, what is left out, and the mutation score.
 //!
-//! There is no script in it, and a content security policy lets nothing be fetched. All texts of users are escaped in one
-//! place (`markup`).
+//! The page has no script, and a content security policy forbids requests. All user texts are escaped in one place
+//! (`markup`).
 
 mod cover;
 mod data_sheet;
@@ -23,7 +23,7 @@ use super::Sheets;
 use markup::escaped;
 use petril_spec::sif::{Formula, Kind, SignalId, Specification};
 
-/// How the page looks, on screens and on paper.
+/// Style sheet for screen and paper.
 const STYLE: &str = include_str!("protocol.css");
 
 /// Writes the protocol.
@@ -54,7 +54,7 @@ pub fn write(sheets: &Sheets<'_>) -> String {
     page + "</main>\n</body>\n</html>\n"
 }
 
-/// The restrictions that speak of what a function depends on, by their positions.
+/// Positions of the restrictions that concern a function's inputs.
 fn restrictions(specification: &Specification, function: usize) -> impl Iterator<Item = usize> + '_ {
     let cone = petril_spec::sif::Cone::of_function(specification, function);
     let kept =
@@ -62,7 +62,7 @@ fn restrictions(specification: &Specification, function: usize) -> impl Iterator
     (0..specification.restrictions.len()).filter(kept)
 }
 
-/// The latch of an output, as it is written.
+/// Reset condition of a latched output.
 fn latch(specification: &Specification, output: SignalId) -> Option<&Formula> {
     match &specification.signal(output).kind {
         Kind::Defined { latched, .. } => latched.as_ref(),
@@ -70,7 +70,7 @@ fn latch(specification: &Specification, output: SignalId) -> Option<&Formula> {
     }
 }
 
-/// The delay of an output in milliseconds.
+/// Delay of an output in milliseconds.
 fn delay(specification: &Specification, output: SignalId) -> Option<u32> {
     match specification.signal(output).kind {
         Kind::Defined { delayed, .. } => delayed,
@@ -78,7 +78,7 @@ fn delay(specification: &Specification, output: SignalId) -> Option<u32> {
     }
 }
 
-/// Each once, in their order.
+/// Removes duplicates, keeping the order.
 fn once(ids: impl IntoIterator<Item = SignalId>) -> Vec<SignalId> {
     let mut seen = BTreeSet::new();
     ids.into_iter().filter(|id| seen.insert(*id)).collect()

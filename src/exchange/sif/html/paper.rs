@@ -1,13 +1,13 @@
-//! Formulas for people: parentheses wherever two operators meet, and a line for each operand of a long one.
+//! Formulas for print: parentheses wherever two operators meet, and a line for each operand of a long one.
 
 use petril_spec::sif::{Formula, Operator, SignalId, Specification};
 
-/// A formula is broken into lines if it is longer.
+/// Length in characters beyond which a formula is broken into lines.
 const MAX_LINE: usize = 72;
 
-/// An equation.
+/// Text of an equation.
 ///
-/// Auxiliary values of its own function are told without this prefix.
+/// Auxiliary values of its own function are shown without `prefix`.
 pub fn equation(specification: &Specification, prefix: &str, name: &str, formula: &Formula) -> String {
     let short = |signal: SignalId| {
         let name = specification.name(signal);
@@ -23,7 +23,7 @@ pub fn equation(specification: &Specification, prefix: &str, name: &str, formula
     format!("{name} =\n    {}", lines.join(&format!("\n  {} ", operator.symbol())))
 }
 
-/// A formula on one line, in parentheses if it has an operator and stands within another one.
+/// A formula on one line, in parentheses if it has an operator and is an operand.
 fn text<'n>(name: &impl Fn(SignalId) -> &'n str, formula: &Formula, is_within: bool) -> String {
     match formula {
         Formula::Constant(value) => if *value { "TRUE" } else { "FALSE" }.to_owned(),

@@ -1,4 +1,4 @@
-//! The tests of a function: inputs to set, outputs to expect, boxes to tick.
+//! Test sheet of a function: inputs to set, outputs to expect, checkboxes.
 
 use super::data_sheet::time;
 use super::markup::{counted, escaped, tick, ticked};
@@ -8,7 +8,7 @@ use crate::exchange::sif::Sheets;
 use crate::exchange::sif::told::{made_by, reasons};
 use petril_spec::sif::{Ending, Plan, SignalId, TestRun};
 
-/// The sheet of a plan.
+/// The test sheet of a plan.
 pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {
     let name = escaped(&sheets.specification.functions[plan.function].name);
     let matrix = Matrix::new(sheets, plan);
@@ -60,7 +60,7 @@ pub fn test_sheet(sheets: &Sheets<'_>, position: usize, plan: &Plan) -> String {
     out
 }
 
-/// The outputs that are not as expected.
+/// Outputs with unexpected values.
 fn wrong(made: &TestRun) -> Vec<SignalId> {
     match &made.ending {
         Ending::Failed(deviations) => deviations.iter().map(|deviation| deviation.output).collect(),

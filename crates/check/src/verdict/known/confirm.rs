@@ -1,4 +1,4 @@
-//! Outcomes that come from elsewhere: their runs are replayed before anybody is shown them.
+//! Validation of cached outcomes: runs are replayed before anybody sees them.
 
 use crate::translate::System;
 use crate::verdict::{Outcome, Remark, Trace, Why, Witness};
@@ -6,7 +6,8 @@ use crate::witness::{FiringTrace, Holds, ScanTrace, replay_firings, replay_scans
 use petril_lang::semantics::VarId;
 use petril_logic::{Bound, Dag, Node, along};
 
-/// Whether everything an outcome speaks of exists, its runs are runs of the system, and one that is said to break the formula does.
+/// Whether everything an outcome mentions exists, its runs are runs of the system, and a counterexample violates the
+/// formula.
 pub fn is_confirmed(system: &System, formula: Option<&Bound>, outcome: &Outcome) -> bool {
     match outcome {
         Outcome::Unknown(_) => true,
@@ -19,7 +20,7 @@ pub fn is_confirmed(system: &System, formula: Option<&Bound>, outcome: &Outcome)
     }
 }
 
-/// Whether what is remarked exists.
+/// Whether the variable or line of a remark exists.
 pub fn is_about(system: &System, remark: &Remark) -> bool {
     match *remark {
         Remark::NeverChanges(variable, _) => has(system, variable),
@@ -31,7 +32,7 @@ fn has(system: &System, variable: VarId) -> bool {
     variable.0 < system.program.variables.len()
 }
 
-/// Replays a run, and shows what holds at each position of it.
+/// Replays a run and hands the valuation at each position to `at`.
 fn replay(system: &System, witness: &Witness, at: &mut dyn FnMut(usize, Holds<'_>)) -> bool {
     let length = length(&witness.trace);
     if length == 0 || witness.notes.iter().any(|note| note.first > note.last || note.last >= length) {
@@ -51,7 +52,7 @@ fn replay(system: &System, witness: &Witness, at: &mut dyn FnMut(usize, Holds<'_
     replayed.is_ok()
 }
 
-/// States that a run comes through, the last one of a loop, which is the one it began with, among them.
+/// Number of states of a run; a loop's last state repeats the one where it begins, and is counted.
 fn length(trace: &Trace) -> usize {
     match trace {
         Trace::Scans(trace) => trace.scans.len(),
@@ -59,7 +60,7 @@ fn length(trace: &Trace) -> usize {
     }
 }
 
-/// Whether a run speaks of nothing but what the system has. What the replay compares is not looked at here.
+/// Whether a run mentions only what the system has. Values are left to the replay.
 fn fits(system: &System, trace: &ScanTrace) -> bool {
     let (program, plant) = (&system.program, &system.plant);
     trace.scans.iter().all(|scan| {
@@ -88,8 +89,8 @@ fn exists(system: &System, why: &Why, witness: &Witness) -> bool {
         && changes.into_iter().all(|change| has(system, change.input) && change.scan < length)
 }
 
-/// Whether a run replays and shows that the formula does not hold, as far as one run can show it: what is claimed of all runs from
-/// one of its states is not looked at.
+/// Whether a run replays and violates the formula as far as one run can show it: claims about all runs from one of its
+/// states are not checked.
 fn breaks(system: &System, formula: Option<&Bound>, witness: &Witness) -> bool {
     let mut dag = Dag::default();
     let broken = formula.filter(|formula| !matches!(formula, Bound::Ltl(_))).map(|formula| dag.add(formula, true));
@@ -106,7 +107,7 @@ fn breaks(system: &System, formula: Option<&Bound>, witness: &Witness) -> bool {
         Trace::Scans(trace) => trace.loop_start,
         Trace::Firings(trace) => trace.loop_start,
     };
-    // The last state of a loop is the one it began with.
+    // The last state of a loop repeats the one where it begins.
     let length = held.len() - usize::from(loop_start.is_some());
     if held.iter().flatten().any(Option::is_none) || length == 0 {
         return false;

@@ -1,7 +1,7 @@
-//! What checks have found, kept for the next one: what is known of a requirement is not computed again.
+//! Cache of outcomes: requirements decided by an earlier check are not decided again.
 //!
-//! Nothing is known of another system, nor of one that is checked in another way ([`fingerprint()`]). A verdict `holds` rests on the
-//! check that found it; a run is replayed before it is told again, and one that is not what it should be is found anew.
+//! Outcomes apply only to the same system under the same options ([`fingerprint()`]). A verdict `holds` rests on the
+//! check that found it; a run is replayed before it is reported again, and decided anew if the replay fails.
 
 mod confirm;
 mod fingerprint;
@@ -25,29 +25,30 @@ use fingerprint::of_demand;
 use petril_logic::{Requirement, View};
 use petril_search::Progress;
 
-/// What checks of one system, made in one way, have found.
+/// Outcomes of checks of one system under given options.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Known {
     exploration: Exploration,
-    /// What was assumed that only the search tells.
+    /// Assumptions found only by the search (states left out by fairness).
     found_assumptions: Vec<String>,
-    /// The fingerprints of the requirements of the last check.
+    /// Fingerprints of the requirements of the last check.
     asked: Vec<String>,
-    /// The outcomes of assertions, in their order.
+    /// Outcomes of assertions, in their order.
     asserted: Vec<Outcome>,
-    /// What is checked without asking.
+    /// Answers of built-in checks.
     checks: Vec<Answer>,
     remarks: Vec<Remark>,
-    /// Lines that are never executed, if that is known.
+    /// Lines that no scan executes, if known.
     never_executed: Option<Vec<usize>>,
-    /// The outcomes of requirements, by their fingerprints.
+    /// Outcomes of requirements by fingerprint.
     outcomes: BTreeMap<String, Outcome>,
 }
 
-/// Judges requirements as [`check()`](super::check()) does, except those of which the outcome is known. If all are, nothing is explored.
+/// Decides requirements as [`check()`](super::check()) does, except those with a cached outcome. If all have one,
+/// nothing is explored.
 ///
-/// `known` must be what was found of the same [`fingerprint()`]. What is known now is given back, unless `watch` has ended the
-/// search: then it depends on more than the system.
+/// `known` must come from a system with the same [`fingerprint()`]. Returns the updated cache, unless `watch` has ended
+/// the search: then outcomes depend on more than the system.
 #[must_use]
 pub fn check_knowing(
     system: &System,
@@ -59,8 +60,8 @@ pub fn check_knowing(
     check_knowing_aloud(system, requirements, options, known, watch, None)
 }
 
-/// As [`check_knowing()`]; `tell` hears of what was explored and of each answer, as with [`check_aloud()`]. It hears nothing if
-/// nothing is explored.
+/// As [`check_knowing()`]; `tell` receives the exploration and each answer, as with [`check_aloud()`], and is not
+/// called if nothing is explored.
 #[must_use]
 pub fn check_knowing_aloud(
     system: &System,
@@ -71,7 +72,7 @@ pub fn check_knowing_aloud(
     tell: Option<Tell<'_>>,
 ) -> (Report, Option<Known>) {
     let demands: Vec<String> = requirements.iter().map(|(_, demand)| of_demand(demand)).collect();
-    // Which runs are left out as unfair is told of all requirements together: then all are known, or none.
+    // States left out by fairness are reported for all requirements together: then all are cached, or none.
     let together = !options.fairness.is_empty();
     let known = known.filter(|known| known.is_about(system, options) && !(together && known.asked != demands));
     let recall = |((_, demand), fingerprint): (&(Requirement, Demand), &String)| {
@@ -137,7 +138,7 @@ pub fn check_knowing_aloud(
 }
 
 impl Known {
-    /// What a report says of these requirements.
+    /// Collects the outcomes of a report on these requirements.
     fn new(system: &System, requirements: &[(Requirement, Demand)], options: &Options, report: &Report) -> Self {
         let outcome = |answer: &Answer| answer.outcome.clone();
         let (asked, asserted) = report.answers.split_at(requirements.len());
@@ -154,7 +155,7 @@ impl Known {
         }
     }
 
-    /// Whether this can be about the system at all: what was kept may be anything.
+    /// Whether the cached data can be about the system at all; it may be damaged.
     fn is_about(&self, system: &System, options: &Options) -> bool {
         let mut lines = self.never_executed.iter().flatten();
         self.asserted.len() == options.assertions.len()
@@ -165,13 +166,13 @@ impl Known {
             && self.checks.iter().all(|check| is_confirmed(system, None, &check.outcome))
     }
 
-    /// The outcome of a requirement, if it is known; its runs have been replayed.
+    /// Cached outcome of a requirement, its runs replayed.
     fn outcome(&self, system: &System, demand: &Demand, fingerprint: &str) -> Option<Outcome> {
         let outcome = self.outcomes.get(fingerprint)?;
         is_confirmed(system, demand.formula(), outcome).then(|| outcome.clone())
     }
 
-    /// The report on requirements with these outcomes.
+    /// Builds the report from cached data and these outcomes.
     fn report(
         &self,
         system: &System,
@@ -202,7 +203,7 @@ impl Known {
     }
 }
 
-/// What a report assumes that only the search tells.
+/// Assumptions of a report that only the search finds.
 fn found_assumptions(
     system: &System,
     options: &Options,
@@ -213,7 +214,7 @@ fn found_assumptions(
     report.assumptions.iter().filter(|found| !known.contains(found)).cloned().collect()
 }
 
-/// Whether some requirement speaks of times.
+/// Whether some requirement mentions time.
 fn is_timed(requirements: &[(Requirement, Demand)]) -> bool {
     requirements.iter().any(|(requirement, _)| requirement.speaks_of_time())
 }

@@ -1,4 +1,4 @@
-//! The inputs of a run that might have been others, and what they might have been.
+//! Candidate input changes for a repair: inputs of the run and the values to try instead.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -11,21 +11,21 @@ use crate::witness::ScanTrace;
 use petril_lang::flat::{Instruction, Operand};
 use petril_lang::semantics::{Type, VarId};
 
-/// Values of one input, or settings of one device, that are all tried.
+/// Upper bound on values of an input, or markings of a device, that are tried exhaustively.
 const ALL: usize = 32;
 
-/// One free input in one scan, or what one device gives in one scan, with what it might have been instead.
+/// A free input, or all inputs driven by one device, in one scan, with the alternatives to try.
 pub struct Slot {
     /// The scan.
     pub scan: usize,
-    /// What the inputs are, in this scan.
+    /// Inputs with their values in this scan.
     now: Vec<(VarId, u64)>,
-    /// Each a way to change it: one change for a free input, one or more for a device.
+    /// Alternatives: one change for a free input, one or more for a device.
     pub alternatives: Vec<Vec<Change>>,
 }
 
 impl Slot {
-    /// The changes that give the inputs these values.
+    /// Changes that give the inputs these values.
     pub fn changed_to(&self, values: &[(VarId, u64)]) -> Vec<Change> {
         let now = self.now.iter().filter_map(|&(input, from)| {
             let &(_, to) = values.iter().find(|(own, _)| *own == input)?;
@@ -35,14 +35,14 @@ impl Slot {
     }
 }
 
-/// All slots of a run: those of later scans first, and of one scan those that have just changed.
+/// Slots of a run, later scans first; within a scan, inputs that have just changed first.
 pub struct Candidates {
     pub slots: Vec<Slot>,
-    /// Whether nothing was left out that might make a difference.
+    /// Whether the alternatives are exhaustive.
     pub are_all: bool,
 }
 
-/// What might have been otherwise in a run. `ends` are the positions after each of its scans.
+/// Collects the candidates of a run. `ends` are the positions after each of its scans.
 pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace, ends: &[Position]) -> Candidates {
     let system = space.system();
     let program = &system.program;
@@ -78,7 +78,7 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
             let mut alternatives: Vec<Vec<Change>> = if component.markings.len() <= ALL {
                 all.collect()
             } else {
-                // After other changes there may be more.
+                // After other changes the device may reach more markings.
                 candidates.are_all = false;
                 let ahead = before.plant[number].iter();
                 let ahead = ahead.flat_map(|&marking| component.closure(marking, |output| before.memory[output.0]));
@@ -95,7 +95,7 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
         }
     }
     candidates.slots.retain(|slot| !slot.alternatives.is_empty());
-    // What has just changed is the first that comes to mind.
+    // Inputs that have just changed are the likeliest cause.
     let earlier = |scan: usize, input: VarId| match scan.checked_sub(1) {
         Some(before) => ends[before].memory[input.0],
         None => program.variable(input).initial,
@@ -105,7 +105,7 @@ pub fn candidates(broken: &Broken<'_>, space: &ScanSpace<'_>, trace: &ScanTrace,
     candidates
 }
 
-/// The first values that an input has in a run, each once: as many as are tried.
+/// First distinct values of an input in a run, up to the number tried.
 fn distinct(input: VarId, trace: &ScanTrace) -> Vec<u64> {
     let mut values = Vec::new();
     for &(_, value) in trace.scans.iter().flat_map(|scan| &scan.inputs).filter(|(own, _)| *own == input) {
@@ -116,13 +116,14 @@ fn distinct(input: VarId, trace: &ScanTrace) -> Vec<u64> {
     values
 }
 
-/// How far apart the values of a change are. The nearest are tried first.
+/// Distance between the values of a change. The nearest are tried first.
 fn apart(ty: Type, change: &Change) -> u128 {
     (ty.number(change.to) - ty.number(change.from)).unsigned_abs()
 }
 
-/// What a free input might have been, and whether that is all: for a number of many values those it has elsewhere in the run, its
-/// neighbours, the ends of its domain, 0, and the constants it may be compared with, and theirs.
+/// Alternative values of a free input, and whether they are exhaustive. For a large domain: its other values in the
+/// run, the ends of the domain, 0, the constants it may be compared with, and the neighbours of all these and of its
+/// own value.
 fn values(
     space: &ScanSpace<'_>,
     input: VarId,

@@ -1,21 +1,21 @@
-//! On what the value of a formula about one state rests.
+//! Decisive literals: the parts that determine the value of a state formula.
 
 use petril_lang::semantics::VarId;
 use petril_logic::{Bound, Comparison, Past, Term};
 
-/// Something on which the value of a formula rests.
+/// Literal that the value of a formula depends on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Literal {
-    /// The value of a variable.
+    /// Current value of a variable.
     Now(VarId),
-    /// The value it had a scan before.
+    /// Value of a variable one scan earlier.
     Before(VarId),
-    /// Something else of the past, as a formula that is true or false.
+    /// Past-time term, as a formula that is true or false.
     Past(Bound),
 }
 
-/// What makes a formula about one state true, or false: of a conjunction that is false, those of its parts that are. `holds`
-/// evaluates a part. Everything comes once, in the order of the formula.
+/// Decisive literals of a state formula: of a false conjunction, those of its false parts. `holds` evaluates a part.
+/// Each literal occurs once, in the order of the formula.
 pub fn decisive(formula: &Bound, holds: &dyn Fn(&Bound) -> bool) -> Vec<Literal> {
     let mut found = Vec::new();
     add(formula, holds, &mut found);
@@ -23,7 +23,7 @@ pub fn decisive(formula: &Bound, holds: &dyn Fn(&Bound) -> bool) -> Vec<Literal>
 }
 
 fn add(formula: &Bound, holds: &dyn Fn(&Bound) -> bool, found: &mut Vec<Literal>) {
-    // Of two parts, those that have the value that settles the whole; else both.
+    // The operands that settle the value alone, if any; else both.
     let mut two = |f: &Bound, g: &Bound, settles: &dyn Fn(&Bound, bool) -> bool| {
         let parts = [(f, settles(f, true)), (g, settles(g, false))];
         let any = parts.iter().any(|&(_, settles)| settles);
@@ -64,7 +64,7 @@ fn add_term(term: &Term, holds: &dyn Fn(&Bound) -> bool, found: &mut Vec<Literal
     }
 }
 
-/// The variable whose value of a scan before this is.
+/// Variable whose value one scan earlier a past term denotes.
 fn before(past: &Past) -> Option<VarId> {
     match past {
         Past::Before(Term::Variable(variable, _)) => Some(*variable),

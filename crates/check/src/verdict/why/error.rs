@@ -1,10 +1,10 @@
-//! Why a run meets an error: what the instruction had to give, what it got, and who wrote the values that led there.
+//! Diagnosis of a run-time error: expected and actual value at the instruction, and the writers of its operands.
 
 use super::super::{Trace, Why, Witness, Writer};
 use crate::translate::System;
 use crate::witness::failed;
 
-/// Why the last scan of a run that has been replayed meets an error, or never ends; nothing of other runs.
+/// Diagnoses the last scan of a replayed run that ends in an error or never ends; `None` for other runs.
 pub fn of_error(system: &System, witness: &Witness) -> Option<Why> {
     let Trace::Scans(trace) = &witness.trace else { return None };
     let failed = failed(system, trace)?;

@@ -1,4 +1,4 @@
-//! Why a run breaks a requirement: what was wanted, who wrote the values that break it, and which inputs matter.
+//! Diagnosis of a counterexample: expected value, last writers of the decisive variables, and inputs that matter.
 
 mod candidates;
 mod decisive;
@@ -19,26 +19,26 @@ use petril_lang::semantics::{Role, VarId};
 use petril_logic::{Bound, Dag, Evidence, Labels, NodeId};
 use petril_search::Graph;
 
-/// A requirement that is broken, and the run that shows it.
+/// A violated requirement with its counterexample.
 #[derive(Clone, Copy)]
 pub struct Broken<'a> {
-    /// The view, which is that of scans.
+    /// View; diagnosis needs the scan view.
     pub view: &'a dyn SystemView,
-    /// Its graph.
+    /// State graph of the view.
     pub graph: &'a Graph,
-    /// The requirement.
+    /// Requirement.
     pub formula: &'a Bound,
-    /// Its formula and its negation.
+    /// DAG of the formula and its negation.
     pub dag: &'a Dag,
-    /// The negation.
+    /// Node of the negation.
     pub negation: NodeId,
-    /// Which states satisfy which node.
+    /// Satisfying states of each node.
     pub labels: &'a Labels,
-    /// The run in the graph.
+    /// Counterexample in the graph.
     pub evidence: &'a Evidence,
 }
 
-/// Why a run that has been replayed breaks a requirement; nothing in the transition view.
+/// Diagnoses a replayed counterexample; `None` in the transition view.
 pub fn why(broken: Broken<'_>, witness: &Witness) -> Option<Why> {
     let (Trace::Scans(trace), Some(scans)) = (&witness.trace, broken.view.scans()) else { return None };
     let wanted = wanted::wanted(&broken);
@@ -50,7 +50,8 @@ pub fn why(broken: Broken<'_>, witness: &Witness) -> Option<Why> {
     Some(Why { wanted: wanted.sentences, writers, unwritten, repair, unrepaired })
 }
 
-/// Who wrote the variables last, each until the scan in which its value counts; and those that nobody has written by then.
+/// Last writers of the variables, each up to the scan in which its value counts; and the variables never written by
+/// then.
 fn writers(space: &ScanSpace<'_>, trace: &ScanTrace, literals: &[(usize, VarId)]) -> (Vec<Writer>, Vec<VarId>) {
     let program = &space.system().program;
     let (mut writers, mut unwritten) = (Vec::new(), Vec::new());

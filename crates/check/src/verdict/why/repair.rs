@@ -1,4 +1,4 @@
-//! Which inputs matter: other values of as few of them as can be with which the run, made again, breaks nothing.
+//! Repair of a counterexample: a smallest set of input changes with which the repeated run satisfies the requirement.
 
 use std::cell::Cell;
 
@@ -12,26 +12,26 @@ use crate::witness::{Disagreement, ScanTrace};
 use petril_lang::semantics::VarId;
 use petril_logic::{Bound, Node, Quantifier, along};
 
-/// More inputs than these tell nobody anything.
+/// Upper bound on the size of a repair found by trying all sets; larger ones explain little.
 const MOST: usize = 4;
-/// A set found by shrinking a large one may have so many parts, so that all parts of it can be tried.
+/// Upper bound on a set found by shrinking, so that all its subsets can be tried.
 const FEW: usize = 6;
-/// Instructions executed for one requirement, at most about.
+/// Approximate upper bound on instructions executed for one requirement.
 const WORK: usize = 20_000_000;
-/// Other repairs that are told.
+/// Upper bound on alternative repairs reported.
 const OTHERS: usize = 3;
 
-/// What becomes of a run with other inputs.
+/// Outcome of a run with changed inputs.
 enum Trial {
-    /// It still breaks the requirement.
+    /// The run still violates the requirement.
     Breaks,
-    /// It does not.
+    /// The run satisfies the requirement.
     Repaired(Again),
-    /// The system has no such run, or it is not known what becomes of it.
+    /// The system has no such run, or its outcome is not known.
     Impossible,
 }
 
-/// The inputs that matter, or why none are told.
+/// Searches for a repair; the error is the reason why there is none.
 pub fn repair(broken: &Broken<'_>, scans: &dyn ScanStates, trace: &ScanTrace) -> Result<Repair, String> {
     let again = || "the run cannot be made again with given inputs".to_owned();
     let scan_length = scans.base().space.system().program.end() + 16;
@@ -62,7 +62,7 @@ pub fn repair(broken: &Broken<'_>, scans: &dyn ScanStates, trace: &ScanTrace) ->
     search.smallest(&candidates)
 }
 
-/// The reason where no run does better.
+/// Reason when every run violates the requirement.
 fn in_common() -> String {
     "it is broken by what all runs have in common, not by the inputs of this one".to_owned()
 }
@@ -71,11 +71,11 @@ struct Search<'a> {
     broken: &'a Broken<'a>,
     scans: &'a dyn ScanStates,
     rerun: Rerun<'a>,
-    /// Whether the break rests on something that is so on all paths.
+    /// Whether the violation depends on a claim about all paths.
     universal: bool,
-    /// What a scan costs, in instructions.
+    /// Cost of a scan, in instructions.
     scan_length: usize,
-    /// Positions at which formulas were looked at. Each costs about an instruction.
+    /// Evaluations of formulas at positions. Each costs about an instruction.
     judged: Cell<usize>,
 }
 
@@ -84,12 +84,12 @@ impl Search<'_> {
         self.rerun.computed() * self.scan_length + self.judged.get() > work
     }
 
-    /// Makes the run again.
+    /// Repeats the run with changes.
     fn tried(&self, changes: &[Change]) -> Trial {
         self.rerun.with(changes).map_or(Trial::Impossible, |again| self.judged(again))
     }
 
-    /// Whether a run breaks the requirement.
+    /// Decides whether a run violates the requirement.
     fn judged(&self, again: Again) -> Trial {
         let Broken { dag, labels, .. } = *self.broken;
         let mut ids = Vec::new();
@@ -115,7 +115,7 @@ impl Search<'_> {
         self.scans.holds_after(formula, &again.ends[at].packed, &again.ends[at].memory)
     }
 
-    /// The numbers of the states in the graph.
+    /// Numbers of the run's states in the graph.
     fn numbers(&self, packed: &[Vec<u64>], again: &Again) -> Option<Vec<u32>> {
         let graph = self.broken.graph;
         let mut ids: Vec<u32> = Vec::with_capacity(packed.len());
@@ -127,13 +127,13 @@ impl Search<'_> {
         Some(ids)
     }
 
-    /// Tries one input, then two, and so on.
+    /// Tries sets of one change, then of two, and so on.
     fn smallest(&self, candidates: &Candidates) -> Result<Repair, String> {
         let mut found: Vec<Vec<Change>> = Vec::new();
         for size in 1..=MOST {
             self.choose(&candidates.slots, size, &mut Vec::new(), &mut found);
             if !found.is_empty() {
-                // All smaller sets were tried: the work is looked at before each size.
+                // All smaller sets were tried: the budget is checked before each size.
                 let is_smallest = candidates.are_all && !self.universal && !self.rerun.gave_up();
                 return self.confirmed(found, is_smallest);
             }
@@ -151,7 +151,7 @@ impl Search<'_> {
         self.confirmed(vec![enough], false)
     }
 
-    /// Tries every choice of changes to so many inputs: of one slot, then of several.
+    /// Tries every set of exactly `size` changes: within one slot first, then across slots.
     fn choose(&self, slots: &[Slot], size: usize, chosen: &mut Vec<Change>, found: &mut Vec<Vec<Change>>) {
         let of = |slot: &'_ Slot, fits: &dyn Fn(usize) -> bool| -> Vec<Vec<Change>> {
             slot.alternatives.iter().filter(|changes| fits(changes.len())).cloned().collect()
@@ -182,14 +182,14 @@ impl Search<'_> {
         }
     }
 
-    /// A set of changes that is enough, found from a large one: the inputs as if they had stayed what they were before some scan, in
-    /// this scan only or from then on. What is not needed is left out.
+    /// A sufficient set of changes found by shrinking a large one: inputs held at their values before some scan, in
+    /// this scan only or from then on. Unneeded changes are removed one by one (as in delta debugging).
     fn shrunk(&self, slots: &[Slot]) -> Option<Vec<Change>> {
         for scan in (0..self.rerun.trace().scans.len()).rev() {
             if self.is_exhausted(2 * WORK) {
                 return None;
             }
-            // Looking for what is concerned costs something, too.
+            // Selecting the slots has a cost, too.
             self.judged.set(self.judged.get() + 2 * slots.len());
             let before = self.before(scan);
             for for_ever in [false, true] {
@@ -213,7 +213,7 @@ impl Search<'_> {
         None
     }
 
-    /// A smallest part of a set that is enough.
+    /// A smallest sufficient subset.
     fn part_that_is_enough(&self, set: &[Vec<Change>]) -> Option<Vec<Vec<Change>>> {
         let part = |bits: u32| set.iter().enumerate().filter(move |(i, _)| bits >> i & 1 == 1).map(|(_, c)| c.clone());
         let mut parts: Vec<u32> = (1..1 << set.len()).collect();
@@ -225,7 +225,7 @@ impl Search<'_> {
         !self.is_exhausted(2 * WORK) && matches!(self.tried(&set.concat()), Trial::Repaired(_))
     }
 
-    /// The inputs of the scan before one; before the first one, those that the plant gives at power-on, and initial values.
+    /// Inputs of the preceding scan; before the first scan, those the plant gives at power-on, and initial values.
     fn before(&self, scan: usize) -> Vec<(VarId, u64)> {
         if let Some(earlier) = scan.checked_sub(1) {
             return self.rerun.trace().scans[earlier].inputs.clone();
@@ -237,7 +237,7 @@ impl Search<'_> {
         given.chain(free).collect()
     }
 
-    /// The first repair, and the others, after a replay of the runs with them.
+    /// The first repair with its alternatives, each confirmed by a replay of the repaired run.
     fn confirmed(&self, found: Vec<Vec<Change>>, is_smallest: bool) -> Result<Repair, String> {
         let mut sets = Vec::new();
         for mut changes in found {
@@ -253,7 +253,7 @@ impl Search<'_> {
         Ok(Repair { is_smallest: is_smallest || changes.len() == 1, changes, others: sets.collect() })
     }
 
-    /// Replays a run on the net, and compares what it is said to show with what the replay shows.
+    /// Replays a run on the net and compares the value of every state formula.
     fn replay(&self, again: &Again) -> Result<(), Disagreement> {
         let packed = self.packed_run(again);
         let states: Vec<&[u64]> = packed.iter().map(Vec::as_slice).collect();

@@ -1,4 +1,4 @@
-//! A run made again with other inputs.
+//! Repetition of a run with other inputs.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -9,76 +9,76 @@ use crate::verdict::views::ScanStates;
 use crate::witness::ScanTrace;
 use petril_lang::semantics::VarId;
 
-/// Rounds of a loop after which nobody waits any longer for it to close.
+/// Iterations after which a loop that has not closed is given up.
 const ROUNDS: usize = 64;
 
-/// Where a run is at the end of a scan.
+/// State at the end of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct End {
-    /// The values, and the markings of the devices that fit.
+    /// Values, and the possible markings of the devices.
     pub position: Position,
-    /// The same packed, with some of these markings.
+    /// Packed state, with one possible marking of each device.
     pub packed: Vec<u64>,
-    /// What is remembered.
+    /// Memory of past-time formulas.
     pub memory: Vec<u64>,
 }
 
-/// A run, to be made again. The inputs of a loop are repeated for ever.
+/// A run that can be repeated. The inputs of a loop are repeated for ever.
 pub struct Rerun<'a> {
     scans: &'a dyn ScanStates,
     trace: &'a ScanTrace,
-    /// Where the run itself was after each scan.
+    /// States of the original run, one after each scan.
     ends: Vec<Rc<End>>,
-    /// Scans that were computed.
+    /// Number of scans computed.
     computed: Cell<usize>,
-    /// Some run went on without coming to a loop.
+    /// Whether some repetition was given up because its loop did not close.
     gave_up: Cell<bool>,
 }
 
-/// A run that was made again.
+/// A repeated run.
 pub struct Again {
-    /// Where it was after each scan; of a loop, the last one is where it closes.
+    /// States after each scan; for a lasso, the last one repeats the state at `loop_start`.
     pub ends: Vec<Rc<End>>,
-    /// For a lasso, the position that the last one repeats.
+    /// For a lasso, the position repeated by the last state.
     pub loop_start: Option<usize>,
 }
 
 impl Again {
-    /// How many states there are, the last one of a loop not counted twice.
+    /// Number of states, with the repeated one of a lasso counted once.
     pub fn length(&self) -> usize {
         self.ends.len() - usize::from(self.loop_start.is_some())
     }
 }
 
 impl<'a> Rerun<'a> {
-    /// The run as it is. `None` if it cannot be made again.
+    /// Repeats the run unchanged; `None` if that fails.
     pub fn new(scans: &'a dyn ScanStates, trace: &'a ScanTrace) -> Option<Self> {
         let mut rerun = Self { scans, trace, ends: Vec::new(), computed: Cell::new(0), gave_up: Cell::new(false) };
         rerun.ends = rerun.with(&[])?.ends;
         Some(rerun)
     }
 
-    /// The run as it is.
+    /// The unchanged run.
     pub fn itself(&self) -> Again {
         Again { ends: self.ends.clone(), loop_start: self.trace.loop_start }
     }
 
-    /// The run.
+    /// The trace of the original run.
     pub fn trace(&self) -> &ScanTrace {
         self.trace
     }
 
-    /// Whether it is not known of some run what becomes of it.
+    /// Whether the outcome of some repetition is unknown.
     pub fn gave_up(&self) -> bool {
         self.gave_up.get()
     }
 
-    /// Scans that were computed so far.
+    /// Number of scans computed so far.
     pub fn computed(&self) -> usize {
         self.computed.get()
     }
 
-    /// The run with other inputs. `None` if the system has no such run, or it does not come to a loop.
+    /// Repeats the run with changed inputs; `None` if the system has no such run, or its loop does not close.
     pub fn with(&self, changes: &[Change]) -> Option<Again> {
         let first = changes.iter().map(|change| change.scan).min().unwrap_or(0);
         let mut ends = self.ends.get(..first).unwrap_or_default().to_vec();
@@ -86,7 +86,7 @@ impl<'a> Rerun<'a> {
             self.scan(scan, changes, &mut ends)?;
         }
         let Some(start) = self.trace.loop_start else { return Some(Again { ends, loop_start: None }) };
-        // Where the loop begins again and again.
+        // Positions at which an iteration of the loop begins.
         let mut turns = vec![start, ends.len() - 1];
         for _ in 0..ROUNDS {
             let last = ends.last()?;
@@ -102,7 +102,7 @@ impl<'a> Rerun<'a> {
         None
     }
 
-    /// Appends the end of one scan.
+    /// Executes one scan and appends its end.
     fn scan(&self, scan: usize, changes: &[Change], ends: &mut Vec<Rc<End>>) -> Option<()> {
         self.computed.set(self.computed.get() + 1);
         let changed = |&(input, value): &(VarId, u64)| {

@@ -1,22 +1,23 @@
-//! What a requirement wanted where it is broken, and what there was instead, in words: the requirement is followed along the run,
-//! as its author wrote it, to the formula about one state that decides.
+//! Expected and actual behaviour at a violation, in words: the requirement as its author wrote it is followed along the
+//! run to the state formula that decides.
 
 use super::Broken;
 use super::decisive::{Literal, decisive};
 use petril_lang::semantics::VarId;
 use petril_logic::{Bound, Dag, Past, Quantifier, Term, along};
 
-/// What is told at most: sentences, and values in one of them.
+/// Upper bound on sentences, and on values in one sentence.
 const MOST: usize = 4;
 
-/// What is told, and the variables on which the break rests, each with the position in the run where its value counts.
+/// Explanation of a violation: sentences, and the variables it depends on, each with the position in the run where its
+/// value counts.
 #[derive(Default)]
 pub struct Wanted {
     pub sentences: Vec<String>,
     pub literals: Vec<(usize, VarId)>,
 }
 
-/// What a requirement wanted.
+/// Explains the violation of a requirement.
 pub fn wanted(broken: &Broken<'_>) -> Wanted {
     let mut teller = Teller { broken, leads: Vec::new(), told: Wanted::default() };
     teller.tell(broken.formula, false, 0);
@@ -25,7 +26,7 @@ pub fn wanted(broken: &Broken<'_>) -> Wanted {
 
 struct Teller<'a> {
     broken: &'a Broken<'a>,
-    /// What was so, each with the position where it was: the reasons why something was wanted.
+    /// Reasons for the expectation: facts, each with its position.
     leads: Vec<(usize, String)>,
     told: Wanted,
 }
@@ -35,18 +36,18 @@ impl Teller<'_> {
         self.broken.evidence.states.len()
     }
 
-    /// The position after one, if the run goes on.
+    /// Successor of a position, if the run continues.
     fn next(&self, at: usize) -> Option<usize> {
         if at + 1 < self.length() { Some(at + 1) } else { self.broken.evidence.loop_start }
     }
 
-    /// Whether a formula about one state holds at a position.
+    /// Whether a state formula holds at a position.
     fn holds(&self, formula: &Bound, at: usize) -> bool {
         self.broken.view.holds(formula, self.broken.graph.state(self.broken.evidence.states[at]))
     }
 
-    /// Where the run shows that a formula has this value. What is so on all paths is looked up where the whole requirement was
-    /// labelled.
+    /// Positions at which the run shows that a formula has this value. Subformulas about all paths are looked up in the
+    /// labelling of the whole requirement.
     fn shown(&self, formula: &Bound, value: bool) -> Vec<bool> {
         let Broken { dag: whole, labels, evidence, .. } = *self.broken;
         let mut dag = Dag::default();
@@ -65,7 +66,7 @@ impl Teller<'_> {
         formula.text(self.broken.view.system())
     }
 
-    /// A formula without its negations, and the word for the value it has if the whole has this one.
+    /// A formula without its negations, and the word for its value when the whole has this one.
     fn stripped(&self, formula: &Bound, value: bool) -> (String, &'static str) {
         match formula {
             Bound::Not(inner) => self.stripped(inner, !value),
@@ -73,7 +74,7 @@ impl Teller<'_> {
         }
     }
 
-    /// Tells why a formula should not have had this value at a position.
+    /// Explains why a formula should not have this value at a position.
     fn tell(&mut self, formula: &Bound, value: bool, at: usize) {
         if formula.is_state_formula() {
             return self.tell_state(formula, value, at);
@@ -84,7 +85,7 @@ impl Teller<'_> {
                 self.lead(premise, at);
                 self.tell(conclusion, false, at);
             }
-            // One of them is enough to break it: one that the run shows.
+            // One operand suffices; take one that the run shows.
             (Bound::And(f, g), false) | (Bound::Or(f, g), true) => {
                 let part = if self.shown(f, value)[at] || !self.shown(g, value)[at] { f } else { g };
                 self.tell(part, value, at);
@@ -115,14 +116,14 @@ impl Teller<'_> {
         }
     }
 
-    /// Positions from one on, each once, in the order of time.
+    /// Positions reachable from one on, each once, in order of time.
     fn onward(&self, at: usize) -> Vec<usize> {
-        // A loop leads back to what lies before, once.
+        // A loop leads back to earlier positions, once.
         let again = self.broken.evidence.loop_start.map_or(at, |start| start.min(at));
         (at..self.length()).chain(again..at).collect()
     }
 
-    /// Tells why A [hold U release] or A [hold W release] is false.
+    /// Explains why `A [hold U release]` or `A [hold W release]` is false.
     fn tell_until(&mut self, formula: &Bound, (hold, release, weak): (&Bound, &Bound, bool), at: usize) {
         let (ended, unreleased) = (self.shown(hold, false), self.shown(release, false));
         let way = self.onward(at);
@@ -145,7 +146,7 @@ impl Teller<'_> {
         }
     }
 
-    /// What no run can show, or only several.
+    /// Explains a formula that no single run can show.
     fn tell_whole(&mut self, formula: &Bound, value: bool, at: usize) {
         let text = self.text(formula);
         match (formula, value) {
@@ -162,7 +163,7 @@ impl Teller<'_> {
         }
     }
 
-    /// A reason why something is wanted.
+    /// Adds a reason for the expectation.
     fn lead(&mut self, formula: &Bound, at: usize) {
         if !matches!(formula, Bound::Truth(_)) {
             let (text, value) = self.stripped(formula, true);
@@ -173,7 +174,7 @@ impl Teller<'_> {
         }
     }
 
-    /// The break rests on what decides a formula at a position.
+    /// Records the decisive variables of a formula at a position.
     fn rest(&mut self, formula: &Bound, at: usize) {
         if formula.is_state_formula() {
             for literal in decisive(formula, &|part| self.holds(part, at)) {
@@ -190,7 +191,7 @@ impl Teller<'_> {
         }
     }
 
-    /// Tells why a formula about one state should not have had this value.
+    /// Explains why a state formula should not have this value.
     fn tell_state(&mut self, formula: &Bound, value: bool, at: usize) {
         match (formula, value) {
             (Bound::Not(f), _) => self.tell_state(f, !value, at),
@@ -212,7 +213,7 @@ impl Teller<'_> {
         }
     }
 
-    /// The end of it: a formula whose value is not that of one of its parts.
+    /// Explains a formula that does not get its value from one operand.
     fn tell_literal(&mut self, formula: &Bound, value: bool, at: usize) {
         self.rest(formula, at);
         let text = self.text(formula);
@@ -225,7 +226,7 @@ impl Teller<'_> {
         self.say(at, &wanted, if facts.is_empty() { "that cannot be" } else { &facts });
     }
 
-    /// The values that decide a formula: "`a` is TRUE and `Level` is 80".
+    /// Decisive values of a formula in words: "`a` is TRUE and `Level` is 80".
     fn facts(&self, formula: &Bound, at: usize) -> String {
         let literals = decisive(formula, &|part| self.holds(part, at));
         let mut facts: Vec<String> = literals.iter().take(MOST).filter_map(|literal| self.fact(literal, at)).collect();
@@ -260,7 +261,7 @@ impl Teller<'_> {
         })
     }
 
-    /// A sentence: what led to it, what was wanted, what there was. Each scan is named once.
+    /// Adds a sentence: reasons, expected value, actual value. Each scan is named once.
     fn say(&mut self, at: usize, wanted: &str, there_was: &str) {
         if self.told.sentences.len() >= MOST {
             return;
@@ -271,7 +272,7 @@ impl Teller<'_> {
             _ if first == last => format!("after scan {} ", first + 1),
             _ => format!("after scans {} to {} ", first + 1, last + 1),
         };
-        // What is so scan after scan is told once.
+        // A fact about consecutive scans is stated once.
         let mut leads: Vec<(usize, usize, &str)> = Vec::new();
         for (at, what) in &self.leads {
             match leads.last_mut() {
@@ -289,7 +290,7 @@ impl Teller<'_> {
     }
 }
 
-/// Whether a formula is told as something that is true or false by itself.
+/// Whether a formula is stated as something true or false by itself.
 fn is_atom(formula: &Bound) -> bool {
     match formula {
         Bound::Variable(_) | Bound::Bit(..) => true,
@@ -302,7 +303,7 @@ fn truth(value: bool) -> &'static str {
     if value { "TRUE" } else { "FALSE" }
 }
 
-/// Whether one run shows that a formula that begins so has this value.
+/// Whether one run can show that a formula with this quantifier has this value.
 fn one_run_shows(quantifier: Quantifier, value: bool) -> bool {
     (quantifier == Quantifier::All) != value
 }

@@ -1,6 +1,6 @@
-//! Formulas as elements to [`Formula`].
+//! Conversion of XML elements to [`Formula`].
 //!
-//! Operands of any number become balanced trees, so whatever walks a formula goes only a few levels deeper for them.
+//! Operators with many operands become balanced trees, so that recursion over formulas stays shallow.
 
 use roxmltree::Node;
 
@@ -10,11 +10,11 @@ use petril_base::source::Span;
 use petril_base::xml::{Text, tag, tag_span};
 use petril_logic::{Comparison, Expression, Formula, Quantifier, Temporal};
 
-/// A formula may be nested this deeply. Those of the contest have about twenty levels; the limit keeps all that walks them
-/// within its stack.
+/// Upper bound on the nesting of a formula, so that recursion stays within the stack. Formulas of the contest have
+/// about twenty levels.
 const MAX_DEPTH: u32 = 500;
 
-/// The elements that are true or false.
+/// Elements of Boolean type.
 const TRUTHS: &[&str] = &[
     "exists-path",
     "all-paths",
@@ -36,18 +36,18 @@ const TRUTHS: &[&str] = &[
     "integer-gt",
 ];
 
-/// The elements that are numbers.
+/// Elements of number type.
 const NUMBERS: &[&str] = &["integer-constant", "tokens-count", "integer-sum", "integer-difference", "integer-product"];
 
-/// The elements that say when along a path.
+/// Path operators.
 const PATHS: &[&str] = &["finally", "globally", "next", "until"];
 
-/// Reads an operand that is so many levels deep.
+/// Reads an operand at a nesting depth.
 type Read = fn(&mut Reader, Node<'_, '_>, u32) -> Option<Formula>;
 type Join = fn(Box<Formula>, Box<Formula>) -> Expression;
 
 impl Reader {
-    /// An element that must be true or false, so many levels deep.
+    /// Reads an element of Boolean type at a nesting depth.
     pub fn truth(&mut self, element: Node<'_, '_>, depth: u32) -> Option<Formula> {
         let expression = match tag(element) {
             "exists-path" => self.path(element, Quantifier::Some, depth)?,
@@ -62,7 +62,7 @@ impl Reader {
             "implication" => self.two(element, depth, Self::truth, Expression::Implies)?,
             "equivalence" => self.two(element, depth, Self::truth, Expression::Iff)?,
             "exclusive-disjunction" => {
-                // One level more.
+                // Negation adds a level.
                 let expression = self.two(element, depth + 1, Self::truth, Expression::Iff)?;
                 Expression::Not(Box::new(Formula { expression, span: tag_span(element) }))
             }
@@ -88,7 +88,7 @@ impl Reader {
         Some(Formula { expression, span: tag_span(element) })
     }
 
-    /// An element that must be a number, so many levels deep.
+    /// Reads an element of number type at a nesting depth.
     fn number(&mut self, element: Node<'_, '_>, depth: u32) -> Option<Formula> {
         let expression = match tag(element) {
             "integer-constant" => {
@@ -119,7 +119,7 @@ impl Reader {
         Some(Formula { expression, span: tag_span(element) })
     }
 
-    /// A quantifier with its path operator.
+    /// Reads a path quantifier with its path operator.
     fn path(&mut self, element: Node<'_, '_>, quantifier: Quantifier, depth: u32) -> Option<Expression> {
         let [operator] = self.operands(element)?;
         let depth = self.below(element, depth, 1)?;
@@ -141,7 +141,7 @@ impl Reader {
         Some(Expression::Temporal(quantifier, temporal, Box::new(self.truth(f, depth)?)))
     }
 
-    /// An until, with its operands so many levels deep.
+    /// Reads an until with operands at a nesting depth.
     fn until(&mut self, element: Node<'_, '_>, quantifier: Quantifier, depth: u32) -> Option<Expression> {
         let [before, reach] = self.operands(element)?;
         let mut operand = |part: Node<'_, '_>, name| {
@@ -160,7 +160,7 @@ impl Reader {
         self.two(element, depth, Self::number, join)
     }
 
-    /// An operator with two operands.
+    /// Reads an operator with two operands.
     fn two(&mut self, element: Node<'_, '_>, depth: u32, read: Read, join: Join) -> Option<Expression> {
         let [a, b] = self.operands(element)?;
         let depth = self.below(element, depth, 2)?;
@@ -168,7 +168,7 @@ impl Reader {
         Some(join(Box::new(a?), Box::new(b?)))
     }
 
-    /// An operator with any number of operands, at least one.
+    /// Reads an operator with at least one operand.
     fn several(&mut self, element: Node<'_, '_>, depth: u32, read: Read, join: Join) -> Option<Formula> {
         let children = self.children(element);
         if children.is_empty() {
@@ -179,7 +179,7 @@ impl Reader {
         balanced(operands.into_iter().collect::<Option<_>>()?, join)
     }
 
-    /// How deep the operands of an element are, of which there are so many; nothing if that is too deep.
+    /// Nesting depth of the operands of an element; `None` if that is too deep.
     fn below(&mut self, element: Node<'_, '_>, depth: u32, operands: usize) -> Option<u32> {
         let depth = depth + operands.next_power_of_two().ilog2().max(1);
         if depth <= MAX_DEPTH {
@@ -192,7 +192,7 @@ impl Reader {
         None
     }
 
-    /// Says why an element is not true or false.
+    /// Reports an element that is not of Boolean type.
     fn no_truth(&mut self, element: Node<'_, '_>) {
         let (name, span) = (tag(element), tag_span(element));
         if PATHS.contains(&name) {
@@ -209,7 +209,7 @@ impl Reader {
         }
     }
 
-    /// Refuses a formula as one of LTL, once.
+    /// Rejects an LTL formula, once per property.
     fn linear(&mut self, element: Node<'_, '_>, here: String) {
         let message = "formulas of LTL are not read";
         if self.first(message) {
@@ -221,12 +221,12 @@ impl Reader {
     }
 }
 
-/// One atom for each name.
+/// Atoms, one for each name.
 fn atoms(names: Vec<Text>, atom: fn(String) -> Expression) -> Vec<Formula> {
     names.into_iter().map(|Text { text, span }| Formula { expression: atom(text), span }).collect()
 }
 
-/// One formula of all, in their order, each about as deep in it as the others.
+/// Balanced tree over all formulas, in order.
 fn balanced(mut formulas: Vec<Formula>, join: Join) -> Option<Formula> {
     while formulas.len() > 1 {
         let mut rest = formulas.into_iter();

@@ -1,4 +1,4 @@
-//! Property files of the Model Checking Contest: formulas of CTL about a net, and bounds of places.
+//! Property files of the Model Checking Contest: CTL formulas on a net, and bounds of places.
 //!
 //! ```
 //! use petril_base::source::Source;
@@ -19,8 +19,8 @@
 //! assert_eq!(bound.text(&lamp), r#"EF (2 <= tokens("on") + tokens("off"))"#);
 //! ```
 //!
-//! Places and transitions are called by their ids in the PNML file of the net, which are seldom their names: such formulas
-//! are bound with [`Nodes::by_id`](petril_logic::Nodes::by_id).
+//! Places and transitions are identified by their ids in the net's PNML file, which are seldom their names: such
+//! formulas are bound with [`Nodes::by_id`](crate::logic::Nodes::by_id).
 
 mod formula;
 mod read;
@@ -37,28 +37,28 @@ use petril_logic::Formula;
 /// A property of a net.
 #[derive(Clone, Debug)]
 pub struct Property {
-    /// What it is called, unique in its file.
+    /// Id, unique in its file.
     pub id: String,
-    /// Where that stands.
+    /// Position of the id.
     pub span: Span,
-    /// What is asked.
+    /// Question asked.
     pub query: Query,
 }
 
-/// What a property asks.
+/// Question of a property.
 #[derive(Clone, Debug)]
 pub enum Query {
-    /// Whether a formula holds at the beginning.
+    /// Whether a formula holds at the initial marking.
     Holds(Formula),
-    /// How many tokens some places can hold together.
+    /// Maximum number of tokens on some places together.
     Bound(Vec<Place>),
 }
 
-/// A place of the net.
+/// Place of the net.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Its id.
+    /// Id.
     pub id: String,
-    /// Where that stands.
+    /// Position of the id.
     pub span: Span,
 }

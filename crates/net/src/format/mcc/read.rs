@@ -1,4 +1,4 @@
-//! The front door: text to properties, and every error of the text.
+//! Entry point of the reader: text to properties, with all errors.
 
 use std::collections::HashMap;
 
@@ -12,10 +12,10 @@ use petril_base::xml::{self, Text, elements, tag, tag_span};
 
 const EXAMPLE: &str = "a property is like `<property><id>…</id><formula>…</formula></property>`";
 
-/// Reads the properties that can be read, and every error.
+/// Reads all properties that can be read, and reports every error.
 ///
-/// Errors are XML that is not well-formed; what is not known or stands where it cannot; ids that are given twice; formulas
-/// of LTL, and formulas that are nested more than 500 levels deep.
+/// Errors are malformed XML; unknown or misplaced elements; duplicate ids; LTL formulas, and formulas nested more than
+/// 500 levels deep.
 #[must_use]
 pub fn read(source: &Source) -> (Vec<Property>, Vec<Diagnostic>) {
     let document = match xml::document(source, Code::RequirementSyntax, "a property file") {
@@ -62,7 +62,7 @@ fn property(element: Node<'_, '_>, reader: &mut Reader) -> Option<Property> {
         let slot = match tag(child) {
             "id" => &mut id,
             "formula" => &mut formula,
-            // For people.
+            // Descriptions are for people.
             "description" => continue,
             _ => {
                 reader.unknown(child, &["id", "description", "formula"]);

@@ -1,4 +1,4 @@
-//! Elements in elements, names, texts: what all parts of a property file have, and what is wrong with them.
+//! Elements, names and texts of a property file, with their errors.
 
 use roxmltree::Node;
 
@@ -6,11 +6,11 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_base::xml::{Text, content, elements, tag, tag_span};
 
-/// Reads elements, and keeps what is wrong with them.
+/// Reader of elements that collects diagnostics.
 #[derive(Default)]
 pub struct Reader {
     pub diagnostics: Vec<Diagnostic>,
-    /// What was said of this property, and is said once only.
+    /// Messages already reported for this property; each is reported once.
     said: Vec<&'static str>,
 }
 
@@ -20,17 +20,17 @@ impl Reader {
         self.said.clear();
     }
 
-    /// Keeps an error of the format.
+    /// Reports a format error.
     pub fn refuse(&mut self, span: Span, message: impl Into<String>) {
         self.diagnostics.push(Diagnostic::new(Code::RequirementSyntax, span, message));
     }
 
-    /// The same with advice.
+    /// Reports a format error with advice.
     pub fn refuse_with_help(&mut self, span: Span, message: impl Into<String>, help: &str) {
         self.diagnostics.push(Diagnostic::new(Code::RequirementSyntax, span, message).help(help));
     }
 
-    /// Refuses an element that is none of those that can stand here.
+    /// Rejects an element that is not among those allowed here.
     pub fn unknown(&mut self, element: Node<'_, '_>, known: &[&str]) {
         let name = tag(element);
         match known {
@@ -44,7 +44,7 @@ impl Reader {
         }
     }
 
-    /// Whether this was not said of the property yet; then it is now.
+    /// Whether a message is new for this property; remembers it.
     pub fn first(&mut self, message: &'static str) -> bool {
         let first = !self.said.contains(&message);
         if first {
@@ -53,7 +53,7 @@ impl Reader {
         first
     }
 
-    /// The elements in an element that holds nothing else.
+    /// Child elements of an element that contains nothing else.
     pub fn children<'a, 'i>(&mut self, element: Node<'a, 'i>) -> Vec<Node<'a, 'i>> {
         self.attributes(element);
         let Text { text, span } = content(element);
@@ -63,7 +63,7 @@ impl Reader {
         elements(element).collect()
     }
 
-    /// The elements in an element that holds just so many.
+    /// Child elements of an element that must contain exactly `N`.
     pub fn operands<'a, 'i, const N: usize>(&mut self, element: Node<'a, 'i>) -> Option<[Node<'a, 'i>; N]> {
         let children = self.children(element);
         let found = children.len();
@@ -79,7 +79,7 @@ impl Reader {
         operands
     }
 
-    /// The names in an element that holds elements of one kind, at least one.
+    /// Names in an element that contains at least one element, all of one kind.
     pub fn names(&mut self, element: Node<'_, '_>, kind: &str) -> Option<Vec<Text>> {
         let children = self.children(element);
         if children.is_empty() {
@@ -97,7 +97,7 @@ impl Reader {
         names.into_iter().collect()
     }
 
-    /// The text of an element that holds nothing else.
+    /// Text of an element that contains nothing else.
     pub fn text(&mut self, element: Node<'_, '_>) -> Option<Text> {
         self.attributes(element);
         let text = content(element);
@@ -111,7 +111,7 @@ impl Reader {
         None
     }
 
-    /// Refuses attributes: the format has none.
+    /// Rejects attributes: the format has none.
     fn attributes(&mut self, element: Node<'_, '_>) {
         if let Some(attribute) = element.attributes().next() {
             let range = attribute.range();

@@ -1,4 +1,4 @@
-//! What is read, as formula texts, and what is said about what cannot be read.
+//! Tests of the reader: formulas as text, and diagnostics of invalid input.
 
 use super::{Property, Query, read};
 use crate::net::{Arcs, Builder, Net};
@@ -10,7 +10,7 @@ fn set(properties: &str) -> String {
     format!("<?xml version='1.0'?><property-set xmlns='http://mcc.lip6.fr/'>\n{properties}\n</property-set>")
 }
 
-/// A property, its formula in line 2 of its set.
+/// A property with its formula in line 2 of its set.
 fn property(formula: &str) -> String {
     set(&format!("<property><id>f</id><formula>{formula}</formula></property>"))
 }
@@ -21,7 +21,7 @@ fn properties(text: &str) -> Vec<Property> {
     properties
 }
 
-/// Everything that is wrong with a text, as `line:column code message`.
+/// Diagnostics of a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.xml", text);
     let (_, errors) = read(&source);
@@ -42,7 +42,7 @@ fn net() -> Net {
     builder.build()
 }
 
-/// The text of the formula that a property's formula is.
+/// Text of the formula read from a property.
 fn text(formula: &str) -> String {
     let net = net();
     let properties = properties(&property(formula));
@@ -272,12 +272,12 @@ fn deep_formulas_are_refused_and_large_ones_are_not() {
             assert!(matches!(problems.as_slice(), [only] if only.ends_with(deep)), "{open}: {problems:?}");
         }
     }
-    // What is nested just as deep as it may is walked without harm.
+    // A formula at the depth limit is processed without harm.
     let Query::Holds(formula) = properties(&nested("<negation>", "</negation>", 500)).remove(0).query else { panic!() };
     let bound = bind_in_net(&formula, &net().nodes()).unwrap();
     assert_eq!(bound.text(&net()), "!".repeat(500) + "enabled(\"t\")");
     assert_eq!(bound.simplified().text(&net()), "enabled(\"t\")");
-    // A thousand operands count ten levels: 2^10 is 1024.
+    // A thousand operands add ten levels: 2^10 is 1024.
     let wide = format!("<conjunction>{}", "<true/>".repeat(999));
     assert_eq!(problems(&nested(&wide, "</conjunction>", 50)), [""; 0]);
     assert_eq!(problems(&nested(&wide, "</conjunction>", 51)).len(), 1);

@@ -1,4 +1,4 @@
-//! What the pages of a net hold: nodes and arcs by id, before anything is known about whom they refer to.
+//! Contents of a net's pages: nodes and arcs by id, before references are resolved.
 
 use super::ids::Ids;
 use super::label::{number, required, text};
@@ -8,28 +8,28 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{ShortSpan, Source, Span};
 use petril_base::xml::{Element, Event, Piece, Stream};
 
-/// Places or transitions.
+/// Kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Place,
     Transition,
 }
 
-/// A node of the net graph, or another name for one.
+/// Node of the net graph, or reference node.
 #[derive(Debug)]
 pub struct Item<'s> {
-    /// Where its id stands.
+    /// Position of the id.
     pub id: Span,
     pub name: Option<Piece<'s>>,
     pub kind: Kind,
     pub tokens: u64,
-    /// Where the id stands of the node a reference node stands for.
+    /// Position of the id that a reference node refers to.
     pub stands_for: Option<Span>,
-    /// How deep its page is, and which one it is.
+    /// Depth and number of the page.
     pub page: (u32, u32),
 }
 
-/// An arc by the ids at its ends: where they stand.
+/// Arc, by the positions of the ids at its ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Arc {
     pub source: ShortSpan,
@@ -37,19 +37,20 @@ pub struct Arc {
     pub weight: u64,
 }
 
-/// Everything on all pages of a net, in the order of the text.
+/// Contents of all pages of a net, in the order of the text.
 pub struct Contents<'s> {
     pub name: Option<Piece<'s>>,
     pub items: Vec<Item<'s>>,
     pub arcs: Vec<Arc>,
     pub ids: Ids<'s>,
-    /// The tool section that says which units there are.
+    /// NUPN tool section.
     pub units: Option<Section<'s>>,
     pub pages: u32,
 }
 
 impl<'s> Contents<'s> {
-    /// Goes through a net, whose tag has been read; what no safe net has is noted in the draft. Nesting costs no recursion.
+    /// Reads a net whose tag has been read; what a safe net cannot have is recorded in the draft. Iterative, so nesting
+    /// costs no stack.
     pub fn of(
         stream: &mut Stream<'s>,
         source: &'s Source,
@@ -60,7 +61,7 @@ impl<'s> Contents<'s> {
         let (name, units, ids) = (None, None, Ids::of(source));
         let mut contents = Self { name, items: Vec::new(), arcs: Vec::new(), ids, units, pages: 1 };
         contents.other(net, diagnostics);
-        // The pages that are open, the net itself being the first.
+        // Stack of open pages; the first entry is the net itself.
         let mut open = vec![0];
         while let (Some(&page), Some(event)) = (open.last(), stream.next()?) {
             let page = (open.len() as u32, page);
@@ -99,7 +100,7 @@ impl<'s> Contents<'s> {
         Ok(contents)
     }
 
-    /// Notes the id of an element that nobody refers to.
+    /// Declares the id of an element that cannot be referred to.
     fn other(&mut self, element: &Element<'s>, diagnostics: &mut Vec<Diagnostic>) {
         if let Some(id) = element.attribute("id") {
             self.ids.declare(&id, None, diagnostics);
@@ -178,7 +179,7 @@ impl<'s> Contents<'s> {
     }
 }
 
-/// A node whose tag has been read.
+/// Node whose tag has been read.
 struct Pending<'e, 's> {
     element: &'e Element<'s>,
     kind: Kind,
@@ -186,12 +187,12 @@ struct Pending<'e, 's> {
     page: (u32, u32),
 }
 
-/// What the elements are in that are read next.
+/// Name of the element that encloses what is read next.
 fn parent(open: &[u32]) -> &'static str {
     if open.len() == 1 { "net" } else { "page" }
 }
 
-/// Keeps the value of a label, with where that stands. Two of them would contradict each other.
+/// Stores the value of a label with its position. A second one is an error.
 fn once<T>(slot: &mut Option<(Span, T)>, value: T, label: &Element<'_>, diagnostics: &mut Vec<Diagnostic>) {
     match slot {
         None => *slot = Some((label.span, value)),
@@ -220,7 +221,7 @@ fn inscription<'s>(
     Ok(weight)
 }
 
-/// Refuses what other net types and other tools add, like inhibitor arcs: it could mean anything.
+/// Rejects extensions of other net types and tools, such as inhibitor arcs: their meaning is unknown.
 fn foreign<'s>(
     stream: &mut Stream<'s>,
     element: &Element<'s>,

@@ -1,4 +1,4 @@
-//! Which id means whom. Each is unique in its document.
+//! Table of ids. Each is unique in its document.
 
 use std::hash::{BuildHasher, RandomState};
 
@@ -8,12 +8,12 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{ShortSpan, Source, Span};
 use petril_base::xml::{Piece, attribute_at};
 
-/// The ids of a document. An id is kept as where it stands: there may be millions.
+/// Ids of a document, stored as positions in the text: there may be millions.
 pub struct Ids<'s> {
     source: &'s Source,
-    /// Each id with the item that has it; none for what nobody refers to: the net itself, pages, arcs.
+    /// Each id with its item; `None` for elements that cannot be referred to: the net itself, pages, arcs.
     entries: Vec<(ShortSpan, Option<u32>)>,
-    /// Positions in `entries`, by the texts there.
+    /// Positions in `entries`, hashed by text.
     table: HashTable<u32>,
     hasher: RandomState,
 }
@@ -23,7 +23,7 @@ impl<'s> Ids<'s> {
         Self { source, entries: Vec::new(), table: HashTable::new(), hasher: RandomState::new() }
     }
 
-    /// Enters an id, unless an element before has it.
+    /// Declares an id, or reports a duplicate.
     pub fn declare(&mut self, id: &Piece<'s>, item: Option<usize>, diagnostics: &mut Vec<Diagnostic>) {
         if let Some(entry) = self.entry(&id.text) {
             let message = format!("the id `{}` is given twice", id.text);
@@ -41,7 +41,7 @@ impl<'s> Ids<'s> {
         table.insert_unique(hash(&position), position, hash);
     }
 
-    /// The item of an id; `Some(None)` if the id is nobody's whom one can refer to.
+    /// Item of an id; `Some(None)` if the id belongs to an element that cannot be referred to.
     pub fn find(&self, id: &str) -> Option<Option<usize>> {
         self.entry(id).map(|entry| self.entries[entry].1.map(|item| item as usize))
     }

@@ -1,11 +1,11 @@
-//! Attributes and labels: the texts of a PNML element, each with where it stands.
+//! Attributes and labels of PNML elements, with their positions.
 
 use crate::format::draft::MAX_COUNT;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_base::xml::{Element, Event, Piece, Stream};
 
-/// An attribute that must be there.
+/// Required attribute.
 pub fn required<'s>(element: &Element<'s>, name: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<Piece<'s>> {
     let attribute = element.attribute(name);
     if attribute.is_none() {
@@ -15,7 +15,7 @@ pub fn required<'s>(element: &Element<'s>, name: &str, diagnostics: &mut Vec<Dia
     attribute
 }
 
-/// The content of the element `<text>` of the label that began last. Goes to the end of the label.
+/// Content of the `<text>` of the label that began last. Reads to the end of the label.
 pub fn text<'s>(stream: &mut Stream<'s>) -> Result<Option<Piece<'s>>, Diagnostic> {
     let mut text = None;
     loop {
@@ -30,7 +30,7 @@ pub fn text<'s>(stream: &mut Stream<'s>) -> Result<Option<Piece<'s>>, Diagnostic
     }
 }
 
-/// The natural number of the label that began last, and where it stands. Goes to the end of the label.
+/// Natural number of the label that began last, with its position. Reads to the end of the label.
 pub fn number<'s>(
     stream: &mut Stream<'s>,
     label: &Element<'s>,

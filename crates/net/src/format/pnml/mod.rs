@@ -1,8 +1,8 @@
 //! PNML, place/transition nets (ISO/IEC 15909-2).
 //!
-//! Read are nets over several pages, with reference nodes, with or without graphics. Of tool sections, that of nested-unit
-//! Petri nets (NUPN) is read; others do not count.
-//! A node is called by its name, or by its id if it has no name or shares it with an earlier node.
+//! Supported are nets over several pages, with reference nodes, with or without graphics. Of tool sections, that of
+//! nested-unit Petri nets (NUPN) is read; others are ignored. A node is called by its name, or by its id if it has no
+//! name or shares it with an earlier node.
 
 mod contents;
 mod extras;

@@ -1,4 +1,4 @@
-//! The front door: text to net, or every error of the text.
+//! Entry point of the reader: text to net, or all errors.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -11,23 +11,23 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{Source, Span};
 use petril_base::xml::{Element, Event, Piece, Stream, attribute_at};
 
-/// The type of place/transition nets.
+/// Net type of place/transition nets.
 pub(super) const NET_TYPE: &str = "http://www.pnml.org/version-2009/grammar/ptnet";
 
-/// Reads a net. Nodes are numbered in the order of the text, page by page; the span of a node is its name's, or its id's if
-/// it goes by that.
+/// Reads a net. Nodes are numbered in the order of the text, page by page; the span of a node is that of its name, or
+/// of its id if it has no name of its own.
 ///
 /// # Errors
-/// XML that is not well-formed, documents with no net or several, ids that are given twice or to nobody, and what a
-/// place/transition net does not have: labels of other net types.
+/// XML is malformed, the document has no net or several, an id is a duplicate or refers to nothing, or the net has
+/// labels that a place/transition net does not have.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     load(source).map_err(Trouble::errors)
 }
 
-/// As [`read`], but for a net that can be safe.
+/// As [`read`], but for a net that may be safe.
 ///
 /// # Errors
-/// Weights and several tokens on a place, too.
+/// Weights, or several tokens on a place, too.
 pub fn read_safe(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     load(source).map_err(Trouble::all).and_then(Located::safe)
 }
@@ -42,7 +42,7 @@ fn load(source: &Source) -> Result<Located, Trouble> {
     draft.finish(name, diagnostics)
 }
 
-/// The one net of a document, or why the document is refused as a whole.
+/// The only net of a document, or the reason why the document is rejected as a whole.
 fn the_net<'s>(
     source: &'s Source,
     draft: &mut Draft,
@@ -92,7 +92,7 @@ fn the_net<'s>(
     }
 }
 
-/// What is said about a net that is no place/transition net.
+/// Diagnostic for a net that is not a place/transition net.
 fn other_type(net: &Element<'_>) -> Option<Diagnostic> {
     let (span, found) = match net.attribute("type") {
         Some(Piece { text, .. }) if text == NET_TYPE => return None,
@@ -103,11 +103,11 @@ fn other_type(net: &Element<'_>) -> Option<Diagnostic> {
     Some(Diagnostic::new(Code::NetSyntax, span, found).help(help))
 }
 
-/// The net in terms of places and transitions.
+/// Converts the contents to places and transitions.
 fn fill<'s>(source: &'s Source, draft: &mut Draft, mut contents: Contents<'s>, diagnostics: &mut Vec<Diagnostic>) {
     let mut order: Vec<u32> = (0..contents.items.len() as u32).collect();
     if contents.pages > 1 {
-        // The outer pages first.
+        // Outer pages come first.
         order.sort_by_key(|&item| contents.items[item as usize].page);
     }
     let names = names(source, &contents.items, &order);
@@ -166,8 +166,8 @@ fn fill<'s>(source: &'s Source, draft: &mut Draft, mut contents: Contents<'s>, d
     }
 }
 
-/// What each item is called, in this order, unique among places and among transitions: its name unless an earlier one has it,
-/// else its id, with a number behind it in the odd case that this is another's name.
+/// Names of the items, in this order, unique among places and among transitions: an item's name unless an earlier one
+/// has it, else its id, with a number appended in the rare case that another node has that name.
 fn names<'s>(source: &'s Source, items: &[Item<'s>], order: &[u32]) -> Vec<Piece<'s>> {
     let mut taken: [HashSet<Cow<'s, str>>; 2] = [HashSet::new(), HashSet::new()];
     let items = || order.iter().map(|&item| &items[item as usize]);

@@ -1,23 +1,23 @@
-//! Ids to nodes: reference nodes stand for what is at the end of their chain.
+//! Resolution of ids: a reference node stands for the node at the end of its chain.
 
 use super::contents::{Contents, Item, Kind};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::{Source, Span};
 use petril_base::xml::attribute_at;
 
-/// Whom an id means.
+/// Resolved references.
 pub struct References<'a, 's> {
     source: &'s Source,
     contents: &'a Contents<'s>,
-    /// For each item the place or transition it is or stands for; `None` if that is reported.
+    /// Place or transition that each item is or stands for; `None` if an error was reported.
     ends: Vec<Option<u32>>,
 }
 
-/// How far a reference node has been followed.
+/// State of the traversal of a reference node.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Progress {
     Untouched,
-    /// It is on the chain that is being followed.
+    /// The item is on the current chain.
     OnChain,
     Done,
 }
@@ -58,8 +58,8 @@ impl<'a, 's> References<'a, 's> {
         references
     }
 
-    /// The item that the id at a place in the text means: `Err` if there is none, `Ok(None)` if there is one and what is wrong
-    /// with it is reported.
+    /// Item that the id at a position refers to: `Err` if there is none, `Ok(None)` if an error in it was reported
+    /// before.
     pub fn find(&self, id: Span) -> Result<Option<usize>, Box<Diagnostic>> {
         match self.contents.ids.find(&attribute_at(self.source, id)) {
             Some(Some(item)) => Ok(self.ends[item].map(|end| end as usize)),
@@ -67,7 +67,7 @@ impl<'a, 's> References<'a, 's> {
         }
     }
 
-    /// The node that a reference node names.
+    /// Item that a reference node refers to.
     fn target(&self, from: &Item<'_>, target: Span) -> Result<usize, Box<Diagnostic>> {
         let id = attribute_at(self.source, target);
         let next = self.contents.ids.find(&id).flatten().ok_or_else(|| self.unknown(target))?;

@@ -1,10 +1,10 @@
-//! What is read, and what is said about what cannot be read.
+//! Tests of the reader: nets, and diagnostics of invalid input.
 
 use super::{read, read_safe};
 use crate::net::{Arcs, Located, PlaceId, TransitionId};
 use petril_base::source::Source;
 
-/// A document around what stands on its page, which begins in line 2.
+/// A document around the content of its page, which begins in line 2.
 fn document(page: &str) -> String {
     let (pnml, net) =
         ("http://www.pnml.org/version-2009/grammar/pnml", "http://www.pnml.org/version-2009/grammar/ptnet");
@@ -15,7 +15,7 @@ fn read_page(page: &str) -> Located {
     read(&Source::new("test.pnml", document(page))).unwrap_or_else(|errors| panic!("{page}\n{errors:#?}"))
 }
 
-/// Everything that is wrong with a text, as `line:column code message`.
+/// Diagnostics of a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.pnml", text);
     let errors = read_safe(&source).expect_err(text);

@@ -1,5 +1,5 @@
-//! The tool section of nested-unit Petri nets (NUPN 1.1). A section that does not fit its net is left out with a warning: the
-//! net is the same without it.
+//! Tool section of nested-unit Petri nets (NUPN 1.1). A section that does not fit its net is dropped with a warning:
+//! the net is the same without it.
 
 use std::collections::HashMap;
 
@@ -10,12 +10,12 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_base::xml::{Element, Event, Piece, Stream};
 
-/// A section as it stands in the file.
+/// Section as written in the file.
 pub struct Section<'s> {
     span: Span,
-    /// How many places, transitions and arcs the section says there are.
+    /// Declared numbers of places, transitions and arcs.
     sizes: Vec<(&'static str, Piece<'s>)>,
-    /// How many units it says there are.
+    /// Declared number of units.
     count: Option<Piece<'s>>,
     root: Option<Piece<'s>>,
     safe: bool,
@@ -29,7 +29,7 @@ struct DraftUnit<'s> {
 }
 
 impl<'s> Section<'s> {
-    /// Whether a tool section is one of this kind.
+    /// Whether a tool section is a NUPN section.
     pub fn is_one(element: &Element<'_>) -> bool {
         element.attribute("tool").is_some_and(|tool| tool.text == "nupn")
     }
@@ -42,7 +42,7 @@ impl<'s> Section<'s> {
     ) -> Result<Option<Self>, Diagnostic> {
         let span = element.span;
         let mut section = Self { span, sizes: Vec::new(), count: None, root: None, safe: false, units: Vec::new() };
-        // The section, its structure, a unit.
+        // Levels: section, structure, unit.
         let mut depth = 1;
         while let Some(event) = stream.next()? {
             let element = match event {
@@ -90,7 +90,7 @@ impl<'s> Section<'s> {
         Ok(Some(section))
     }
 
-    /// The units in terms of the net; `positions` are those of the items among the places.
+    /// Units of the net; `positions` are those of the items among the places.
     pub fn units(&self, contents: &Contents<'s>, positions: &[u32], draft: &mut Draft) -> Option<Units> {
         let counts = [draft.places.len(), draft.transitions.len(), contents.arcs.len()];
         for ((of, size), count) in self.sizes.iter().filter_map(|size| {
@@ -117,7 +117,7 @@ impl<'s> Section<'s> {
         None
     }
 
-    /// The units, if they are a tree with each place in one of them.
+    /// Units, if they form a tree with each place in exactly one of them.
     fn tree(
         &self,
         contents: &Contents<'s>,
@@ -173,7 +173,7 @@ impl<'s> Section<'s> {
         if let Some(place) = unit_of.iter().position(Option::is_none) {
             misfits.push((self.span, format!("the place `{}` is in no unit", draft.places[place].name)));
         }
-        // Every unit has at most one parent; so it is below the root, in no unit, or in a circle.
+        // Every unit has at most one parent, so it is below the root, without parent, or on a cycle.
         let mut below = vec![root];
         let mut next = 0;
         while let Some(&unit) = below.get(next).filter(|_| below.len() <= units.len()) {
@@ -196,7 +196,7 @@ impl<'s> Section<'s> {
     }
 }
 
-/// Whether the initial marking is as in a unit-safe net. Units come after those they are in.
+/// Whether the initial marking is that of a unit-safe net. `order` lists units after those that contain them.
 fn fits_the_beginning(units: &Units, order: &[usize], unit_of: &[Option<usize>], draft: &Draft) -> bool {
     let mut tokens: Vec<u64> = vec![0; units.units.len()];
     for (place, unit) in draft.places.iter().zip(unit_of) {
@@ -204,7 +204,7 @@ fn fits_the_beginning(units: &Units, order: &[usize], unit_of: &[Option<usize>],
             tokens[*unit] = tokens[*unit].saturating_add(place.tokens);
         }
     }
-    // Whether a place is marked in the unit or in one it is in.
+    // Whether a place of the unit or of an enclosing one is marked.
     let mut is_marked = vec![false; units.units.len()];
     order.iter().all(|&unit| {
         let fits = tokens[unit] == 0 || (tokens[unit] == 1 && !is_marked[unit]);
@@ -219,7 +219,7 @@ fn warn(warnings: &mut Vec<Diagnostic>, span: Span, message: String) {
     warnings.push(Diagnostic::new(Code::UnitsUnfit, span, message));
 }
 
-/// The words of a text; where each stands, if nothing but blanks is between them.
+/// Words of a text with their positions, exact if the text contains no entities or comments.
 fn words<'p>(piece: &'p Piece<'_>) -> impl Iterator<Item = (Span, &'p str)> {
     let text: &str = &piece.text;
     let is_as_written = text.len() == piece.span.end - piece.span.start;

@@ -1,4 +1,4 @@
-//! Net to text.
+//! Writer: net to PNML.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -18,27 +18,27 @@ use petril_base::xml::written;
 
 type Xml<'o> = Writer<&'o mut dyn io::Write>;
 
-/// What a document can say of a net beside its structure.
+/// Additional contents of a document.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extras<'e> {
-    /// Where the nodes stand.
+    /// Positions of the nodes.
     pub positions: Option<&'e Positions>,
-    /// What they stand for, in tool sections of Petril's.
+    /// Annotations of the nodes, in tool sections of Petril.
     pub notes: Option<&'e Notes>,
-    /// The units of the places, in a tool section that many tools know (NUPN 1.1).
+    /// Units of the places, in a tool section that many tools know (NUPN 1.1).
     pub units: Option<&'e Units>,
-    /// The ids of places and transitions in the file they are from. Those that no document can have are replaced.
+    /// Ids of places and transitions in their original file. Those that are not valid in XML are replaced.
     pub ids: Option<&'e (Vec<String>, Vec<String>)>,
 }
 
-/// Writes a net on one page, a read arc as a loop of two arcs. The readable names are labels; without other ids, those of the
-/// nodes are `p0`, `p1`, … and `t0`, `t1`, ….
+/// Writes a net on one page; a read arc becomes a loop of two arcs. Names become labels; without given ids, nodes are
+/// called `p0`, `p1`, … and `t0`, `t1`, ….
 ///
-/// Reading it back gives the same net, unless a name begins or ends with blanks or holds a control character that XML cannot
-/// keep; other characters that are not printable are references.
+/// Reading the document gives the same net, unless a name begins or ends with blanks or has a control character that
+/// XML cannot represent; other characters that are not printable become character references.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, extras: Extras<'_>, out: &mut dyn io::Write) -> io::Result<()> {
     let ids = Ids::of(extras.ids);
     let mut xml = Writer::new_with_indent(out, b' ', 2);
@@ -56,7 +56,7 @@ pub fn write_to(net: &Net, extras: Extras<'_>, out: &mut dyn io::Write) -> io::R
     writeln!(xml.into_inner())
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net, extras: Extras<'_>) -> String {
     to_text(|out| write_to(net, extras, out))
@@ -111,7 +111,7 @@ fn page(xml: &mut Xml<'_>, net: &Net, ids: &Ids<'_>, extras: Extras<'_>) -> io::
     extras.units.map_or(Ok(()), |units| unit_section(xml, net, ids, units))
 }
 
-/// The weight of a place in a list; 0 if it is not there.
+/// Weight of a place in a list; 0 if absent.
 fn on(mut arcs: impl Iterator<Item = (PlaceId, u64)>, place: PlaceId) -> u64 {
     arcs.find(|&(other, _)| other == place).map_or(0, |(_, weight)| weight)
 }
@@ -185,7 +185,7 @@ fn unit_section(xml: &mut Xml<'_>, net: &Net, ids: &Ids<'_>, units: &Units) -> i
     element.write_inner_content(write).map(drop)
 }
 
-/// The ids of a document, all different.
+/// Ids of a document, all different.
 struct Ids<'e> {
     places: &'e [String],
     transitions: &'e [String],
@@ -193,7 +193,7 @@ struct Ids<'e> {
 }
 
 impl<'e> Ids<'e> {
-    /// Keeps those ids that a document can have.
+    /// Keeps the ids that are valid in a document.
     fn of(ids: Option<&'e (Vec<String>, Vec<String>)>) -> Self {
         let (places, transitions): (&[String], &[String]) = ids.map_or((&[], &[]), |(p, t)| (p, t));
         let kept = places.iter().chain(transitions).map(String::as_str).filter(|id| is_id(id)).collect();
@@ -215,7 +215,7 @@ impl<'e> Ids<'e> {
         }
     }
 
-    /// An id, or the first like it that is not taken.
+    /// An id, with underscores appended while it is taken.
     fn free<'i>(&self, id: &'i str) -> Cow<'i, str> {
         let mut id = Cow::Borrowed(id);
         while self.kept.contains(id.as_ref()) {
@@ -225,7 +225,7 @@ impl<'e> Ids<'e> {
     }
 }
 
-/// Whether a text is a name without colon, as the fourth edition of XML 1.0 has them in ASCII: so any tool will take it.
+/// Whether a text is a name without colon in ASCII (XML 1.0, fourth edition), so that every tool accepts it.
 fn is_id(id: &str) -> bool {
     id.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && id.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.'))

@@ -1,4 +1,4 @@
-//! pest's pairs to declarations; what a place/transition net does not have is refused here.
+//! Conversion of pest's pairs to declarations; rejects what a place/transition net does not have.
 
 use pest::iterators::Pair;
 
@@ -8,28 +8,29 @@ use crate::format::draft::{Direction, Draft, MAX_COUNT};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 
-/// A name without its quoting, and where it stands.
+/// Name without its quotes, with its position.
 #[derive(Default)]
 pub struct Name {
     pub text: String,
     pub span: Span,
 }
 
-/// A line that says something about the net.
+/// Declaration: a line about the net.
 pub enum Declaration {
     Net(Name),
     Place {
         name: Name,
         tokens: u64,
     },
-    /// The arcs in the order of the text, with their weights.
+    /// Transition with its arcs in the order of the text, with weights.
     Transition {
         name: Name,
         arcs: Vec<(Direction, Name, u64)>,
     },
 }
 
-/// A line; `None` if it is reported, or says nothing about the net itself. What no safe net has is noted in the draft.
+/// Converts a line; `None` if an error was reported, or the line is not about the net itself. What a safe net cannot
+/// have is recorded in the draft.
 pub fn declaration(line: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> Option<Declaration> {
     match line.as_rule() {
         Rule::net => line.into_inner().find_map(name).map(Declaration::Net),
@@ -85,7 +86,7 @@ fn transition(line: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Dia
     Declaration::Transition { name: transition, arcs }
 }
 
-/// Refuses arcs that are neither weighted nor tests.
+/// Converts an arc; rejects arcs that are neither weighted nor tests.
 fn arc(pair: Pair<'_, Rule>, draft: &mut Draft, diagnostics: &mut Vec<Diagnostic>) -> (Direction, Name, u64) {
     let span = span(&pair);
     let mut direction = if pair.as_rule() == Rule::output { Direction::Produce } else { Direction::Consume };
@@ -130,7 +131,7 @@ fn refuse(span: Span, message: impl Into<String>, help: &str, diagnostics: &mut 
     diagnostics.push(Diagnostic::new(Code::NetNotOrdinary, span, message).help(help));
 }
 
-/// Without time, as TINA writes it.
+/// Whether an interval is the trivial one, as written by TINA.
 fn is_untimed(interval: &str) -> bool {
     interval.chars().filter(|c| !c.is_whitespace()).eq("[0,w[".chars())
 }
@@ -139,11 +140,11 @@ fn is_untimed(interval: &str) -> bool {
 fn number(pair: Pair<'_, Rule>) -> &str {
     let number = pair.into_inner().find(|piece| piece.as_rule() == Rule::number);
     let digits = number.map_or("", |number| number.as_str()).trim_start_matches('0');
-    // Nothing is left of a zero but perhaps its K or M.
+    // Of a zero, at most its suffix K or M remains.
     if digits.starts_with(|c: char| c.is_ascii_digit()) { digits } else { "0" }
 }
 
-/// A number as it is written, where `K` stands for a thousand, and so on.
+/// Value of a number with a suffix: `K` is a thousand, and so on.
 fn count(number: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> u64 {
     let digits = number.trim_end_matches(|c: char| c.is_ascii_alphabetic());
     let factor = match &number[digits.len()..] {
@@ -162,7 +163,7 @@ fn count(number: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) -> u64 {
     })
 }
 
-/// A name, if the pair is one.
+/// Converts a name, if the pair is one.
 fn name(pair: Pair<'_, Rule>) -> Option<Name> {
     let span = span(&pair);
     let text = match pair.as_rule() {

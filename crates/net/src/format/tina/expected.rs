@@ -1,4 +1,4 @@
-//! What the grammar expected, in the words of the format.
+//! Descriptions of what the grammar expected, in terms of the format.
 
 use pest::Parser;
 use pest::error::Error;
@@ -8,10 +8,10 @@ use super::write;
 use petril_base::diagnostic::{self, Code, Diagnostic};
 use petril_base::source::Span;
 
-/// The words a line can begin with.
+/// Words that a line can begin with.
 const WORDS: [&str; 3] = ["net", "pl", "tr"];
 
-/// Says why a line cannot be read. `start` is its offset in the whole text.
+/// Explains why a line cannot be parsed. `start` is its offset in the whole text.
 pub fn explain(line: &str, start: usize) -> Diagnostic {
     let diagnostic = match TinaParser::parse(Rule::lone_line, line) {
         Err(error) => diagnostic(&error, line, start),
@@ -47,12 +47,12 @@ pub fn explain(line: &str, start: usize) -> Diagnostic {
     }
 }
 
-/// A pest error as a diagnostic.
+/// Converts a pest error.
 pub fn diagnostic(error: &Error<Rule>, text: &str, start: usize) -> Diagnostic {
     diagnostic::expected(error, (text, start), Code::NetSyntax, "the end of the line", name)
 }
 
-/// The names of the rules a user knows. Labels, intervals and weights are rare, so nobody is told that one could come.
+/// Names of the rules that users know. Labels, intervals and weights are rare, so they are not listed as expected.
 fn name(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::EOI | Rule::eol => "the end of the line",

@@ -1,4 +1,4 @@
-//! The textual format of the TINA toolbox (`.net`): one declaration a line.
+//! Textual format of the TINA toolbox (`.net`): one declaration per line.
 //!
 //! ```
 //! use petril_base::source::Source;
@@ -10,7 +10,7 @@
 //! assert_eq!(tina::write(&lamp.net), "net lamp\npl off (1)\npl on\ntr switch off -> on\n");
 //! ```
 //!
-//! A name in braces may hold any characters; the braces are quoting, so the name of `{S1=0}` is `S1=0`.
+//! A name in braces may contain any characters; the braces are quotes, so the name of `{S1=0}` is `S1=0`.
 
 mod consume;
 mod expected;

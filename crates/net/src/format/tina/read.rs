@@ -1,4 +1,4 @@
-//! The front door: text to net, or every error of the text.
+//! Entry point of the reader: text to net, or all errors.
 
 use std::collections::HashMap;
 
@@ -21,16 +21,16 @@ pub(super) struct TinaParser;
 /// after its file.
 ///
 /// # Errors
-/// Every line that cannot be read, every node defined twice, and everything a place/transition net does not have: inhibitor
-/// and stopwatch arcs, time, priorities.
+/// A line cannot be parsed, a node is defined twice, or the net has what a place/transition net does not have:
+/// inhibitor and stopwatch arcs, time, priorities.
 pub fn read(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     load(source).map_err(Trouble::errors)
 }
 
-/// As [`read`], but for a net that can be safe.
+/// As [`read`], but for a net that may be safe.
 ///
 /// # Errors
-/// Weights and several tokens on a place, too.
+/// Weights, or several tokens on a place, too.
 pub fn read_safe(source: &Source) -> Result<Located, Vec<Diagnostic>> {
     load(source).map_err(Trouble::all).and_then(Located::safe)
 }
@@ -46,7 +46,7 @@ fn load(source: &Source) -> Result<Located, Trouble> {
                 }
             }
         }
-        // The grammar reads any text, so this is a limit of the parser itself.
+        // The grammar accepts any text, so the error is a limit of the parser itself.
         Err(error) => diagnostics.push(expected::diagnostic(&error, source.text(), 0)),
     }
     let is_undeclared = |&place: &usize| assembly.declared[place].is_none();
@@ -55,13 +55,13 @@ fn load(source: &Source) -> Result<Located, Trouble> {
     assembly.draft.finish(|| name.unwrap_or_else(|| file_stem(source)), diagnostics)
 }
 
-/// The net so far, and what its names stand for.
+/// Net under construction, with its names.
 #[derive(Default)]
 struct Assembly {
     name: Option<Name>,
     draft: Draft,
     places: HashMap<String, usize>,
-    /// Where each place is declared, if it is so far.
+    /// Declaration of each place, if found so far.
     declared: Vec<Option<Span>>,
     transitions: HashMap<String, Span>,
 }
@@ -107,7 +107,7 @@ impl Assembly {
         self.draft.places[place].tokens = tokens;
     }
 
-    /// The place of a name, which may be new.
+    /// Position of a place by name, possibly new.
     fn place(&mut self, Name { text, span }: Name) -> usize {
         if let Some(&place) = self.places.get(&text) {
             return place;

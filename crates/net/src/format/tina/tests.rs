@@ -1,10 +1,10 @@
-//! What is read, and what is said about what cannot be read.
+//! Tests of the reader: nets, and diagnostics of invalid input.
 
 use super::{read, read_safe};
 use crate::net::{Arcs, PlaceId, TransitionId};
 use petril_base::source::Source;
 
-/// Everything that is wrong with a text, as `line:column code message`.
+/// Diagnostics of a text, as `line:column code message`.
 fn problems(text: &str) -> Vec<String> {
     let source = Source::new("test.net", text);
     let errors = read_safe(&source).expect_err(text);
@@ -15,7 +15,7 @@ fn problems(text: &str) -> Vec<String> {
     errors.iter().map(line).collect()
 }
 
-/// The one problem of a text of one line, with what is underlined and the last piece of help.
+/// The only diagnostic of a one-line text: message, text underlined, last help.
 fn problem(text: &str) -> [String; 3] {
     let errors = read_safe(&Source::new("test.net", text)).expect_err(text);
     assert_eq!(errors.len(), 1, "{text}: {errors:?}");

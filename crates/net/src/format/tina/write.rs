@@ -1,4 +1,4 @@
-//! Net to text.
+//! Writer: net to TINA's format.
 
 use std::borrow::Cow;
 use std::io;
@@ -6,13 +6,13 @@ use std::io;
 use crate::net::{Net, PlaceId};
 use petril_base::to_text;
 
-/// Words that begin a declaration.
+/// Keywords that begin a declaration.
 pub(super) const WORDS: [&str; 6] = ["lb", "net", "nt", "pl", "pr", "tr"];
 
-/// Writes a net. Reading it back gives the same net.
+/// Writes a net. Reading the text gives the same net.
 ///
 /// # Errors
-/// Those of the output.
+/// Errors of the output.
 pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     writeln!(out, "net {}", name(net.name()))?;
     for place in net.places() {
@@ -29,7 +29,8 @@ pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
             _ => write!(out, " {}*{weight}", place(to)),
         };
         let read = |place: PlaceId| net.read(id).find(|&(other, _)| other == place).map_or(0, |(_, weight)| weight);
-        // A test asks for tokens that are there, perhaps the ones that are taken: what is needed besides is taken and put back.
+        // A test may be satisfied by tokens that are consumed, so tokens needed in addition are consumed and produced
+        // again.
         let both = |place: PlaceId| net.arcs(id).consume.binary_search(&place).is_ok();
         write!(out, "tr {}", name(net.transition(id).name))?;
         for (place, weight) in net.taken(id) {
@@ -47,13 +48,13 @@ pub fn write_to(net: &Net, out: &mut dyn io::Write) -> io::Result<()> {
     Ok(())
 }
 
-/// As [`write_to`], as a text.
+/// As [`write_to`], to a string.
 #[must_use]
 pub fn write(net: &Net) -> String {
     to_text(|out| write_to(net, out))
 }
 
-/// A name as it is written: bare if it can be, else in braces.
+/// Spelling of a name: bare if possible, else in braces.
 fn name(name: &str) -> Cow<'_, str> {
     let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '\'');
     if is_bare && !WORDS.contains(&name) {

@@ -1,4 +1,4 @@
-//! Every valuation that can be and, if asked for, makes an output TRUE.
+//! Criterion `all`: every allowed valuation or, if wanted, every one that makes an output TRUE.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,27 +8,27 @@ use super::super::solver::Answer;
 use super::allowed::Allowed;
 use super::limits::{Limits, Questions};
 
-/// Most cubes that stand for valuations that are too many.
+/// Upper bound on cubes that summarise valuations too many to list.
 const MAX_CUBES: usize = 32;
 
-/// What a criterion came to.
+/// Result of a criterion.
 #[derive(Default)]
 pub struct Choice {
-    /// The valuations of the inputs that vary.
+    /// Tests: valuations of the varied inputs.
     pub tests: Vec<FixedBitSet>,
-    /// What each is for; as long as the tests, or empty.
+    /// Purposes of each test; as long as `tests`, or empty.
     pub purposes: Vec<Vec<String>>,
-    /// Why this is not all.
+    /// Reason why the tests are incomplete, if so.
     pub incomplete: Option<String>,
-    /// What is to be said besides.
+    /// Further remarks.
     pub notes: Vec<String>,
-    /// Whether fewer would not do.
+    /// Whether the set of tests is proved to be minimum.
     pub is_smallest: bool,
-    /// What the valuations have in common that are too many.
+    /// Cubes that summarise valuations too many to list.
     pub cubes: Vec<Cube>,
 }
 
-/// All valuations, or all that make an output TRUE. If they are too many there are none, and it is said how many they are.
+/// Lists all valuations, or all that make an output TRUE. If they are too many, lists none and reports their number.
 pub fn all(model: &Model<'_>, allowed: Option<&Allowed>, only_triggering: bool, limits: &Limits) -> Choice {
     let set = allowed.and_then(|sets| Some((sets, sets.tests(only_triggering)?)));
     let mut choice = Choice { is_smallest: true, ..Choice::default() };
@@ -48,7 +48,7 @@ pub fn all(model: &Model<'_>, allowed: Option<&Allowed>, only_triggering: bool, 
     choice
 }
 
-/// The same by a solver, one after the other.
+/// Enumeration by a solver, by blocking each model found.
 fn listed(model: &Model<'_>, only_triggering: bool, limits: &Limits) -> Choice {
     let mut questions = Questions::new(limits);
     let encoded = model.cone.encode(&mut questions.solver);
@@ -87,7 +87,7 @@ fn listed(model: &Model<'_>, only_triggering: bool, limits: &Limits) -> Choice {
     }
 }
 
-/// A decimal number, or about how large it is.
+/// A decimal number, or its approximate magnitude if it is long.
 #[must_use]
 pub fn about(number: &str) -> String {
     match number.split_at_checked(2) {

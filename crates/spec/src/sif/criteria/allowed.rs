@@ -1,27 +1,28 @@
-//! The valuations that can be, and those that make an output TRUE, as decision diagrams.
+//! Sets of allowed and of triggering valuations, as decision diagrams.
 
 use super::super::cone::Cone;
 use super::super::diagram::{Diagram, Diagrams};
 use super::super::formula::SignalId;
 use super::Limits;
 
-/// Sets of valuations of the inputs that vary. All other inputs are FALSE in them, whatever they have to be.
+/// Sets of valuations of the varied inputs. All other inputs are FALSE in them, whatever their values have to be.
 pub struct Allowed {
-    /// What they are made with.
+    /// Manager of the diagrams.
     pub diagrams: Diagrams,
-    /// What can be.
+    /// Allowed valuations.
     pub allowed: Diagram,
-    /// What makes an output TRUE, whether it can be or not.
+    /// Triggering valuations (an output is TRUE), allowed or not.
     pub triggering: Diagram,
-    /// For each restriction of the cone: what it excludes, whatever the other inputs are; and what can be but for it.
+    /// For each restriction of the cone: the valuations it excludes, whatever the other inputs are; and those allowed
+    /// without it.
     pub restrictions: Vec<(Diagram, Diagram)>,
-    /// Where every input that does not vary is FALSE.
+    /// Valuations with all other inputs FALSE.
     plain: Diagram,
     connected: Vec<SignalId>,
 }
 
 impl Allowed {
-    /// The sets for a cone and its outputs. Nothing if a diagram would become too large.
+    /// Computes the sets for a cone and its outputs; `None` if a diagram becomes too large.
     pub fn of(cone: &Cone<'_>, outputs: &[SignalId], limits: &Limits, with_restrictions: bool) -> Option<Self> {
         let specification = cone.specification;
         let diagrams = Diagrams::over(cone.all_inputs().collect(), specification.signals.len(), limits.nodes)?;
@@ -73,18 +74,18 @@ impl Allowed {
         Some(sets)
     }
 
-    /// What is in all of these, without one of them.
+    /// Intersection of all sets but one.
     fn all(&self, sets: &[Diagram], without: Option<usize>) -> Option<Diagram> {
         let sets = sets.iter().enumerate().filter(|(position, _)| Some(*position) != without);
         sets.map(|(_, set)| set).try_fold(self.diagrams.constant(true), |all, set| self.diagrams.and(&all, set))
     }
 
-    /// The valuations of the inputs that vary for which some values of the others are in a set.
+    /// Existential projection of a set onto the varied inputs.
     fn narrow(&self, set: &Diagram) -> Option<Diagram> {
         self.diagrams.and(&self.diagrams.whatever(set, &self.connected)?, &self.plain)
     }
 
-    /// All that can be and, if asked for, makes an output TRUE.
+    /// Allowed valuations or, if wanted, those that make an output TRUE.
     pub fn tests(&self, only_triggering: bool) -> Option<Diagram> {
         if only_triggering { self.diagrams.and(&self.allowed, &self.triggering) } else { Some(self.allowed.clone()) }
     }

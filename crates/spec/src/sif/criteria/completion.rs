@@ -1,4 +1,4 @@
-//! How the inputs are set that a function does not look at: as at rest, or close to that where restrictions need it.
+//! Values of the inputs that a function does not depend on: at rest, or as close to rest as restrictions allow.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,7 +8,7 @@ use super::super::solver::{Answer, Literal};
 use super::super::specification::{Restriction, Specification};
 use super::limits::{Limits, Questions};
 
-/// Makes whole tests of valuations of the inputs that vary.
+/// Completes valuations of the varied inputs to tests of all inputs.
 pub struct Completion<'s> {
     cone: Cone<'s>,
     outside: Outside,
@@ -16,17 +16,17 @@ pub struct Completion<'s> {
     encoded: Encoded,
 }
 
-/// The inputs outside of a cone that are TRUE.
+/// Inputs outside a cone that are TRUE.
 enum Outside {
     Set(FixedBitSet),
-    /// Restrictions contradict each other there.
+    /// The restrictions on them contradict each other.
     Contradiction,
-    /// They were not found within the limits.
+    /// The limits did not suffice to find them.
     Unknown,
 }
 
 impl<'s> Completion<'s> {
-    /// For the tests of a function with this cone.
+    /// Prepares the completion of tests of a function with this cone.
     pub fn new(cone: &Cone<'s>, function: usize, limits: &Limits) -> Self {
         let mut questions = Questions::new(limits);
         let encoded = cone.encode(&mut questions.solver);
@@ -37,12 +37,13 @@ impl<'s> Completion<'s> {
         Self { cone: cone.clone(), outside, questions, encoded }
     }
 
-    /// Whether there can be no test, because restrictions of other inputs contradict each other.
+    /// Whether no test is possible because restrictions on other inputs contradict each other.
     pub fn contradicts(&self) -> bool {
         matches!(self.outside, Outside::Contradiction)
     }
 
-    /// All inputs that are TRUE in a test where the inputs that vary are so. Nothing if it cannot be, or was not found in time.
+    /// All inputs that are TRUE in a test with this valuation of the varied inputs; `None` if impossible or not found
+    /// within the limits.
     pub fn complete(&mut self, varied: &FixedBitSet) -> Option<FixedBitSet> {
         let Outside::Set(outside) = &self.outside else { return None };
         let mut inputs = outside.clone();
@@ -67,7 +68,7 @@ impl<'s> Completion<'s> {
     }
 }
 
-/// The literal that is true where an input is as at rest.
+/// Literal that is true when an input is at rest.
 fn at_rest(specification: &Specification, encoded: &Encoded, input: SignalId) -> Literal {
     let literal = encoded.literals[input.0];
     if specification.rest(input) { literal } else { !literal }

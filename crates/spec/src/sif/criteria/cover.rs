@@ -1,31 +1,31 @@
-//! Smallest sets: of columns such that each row has one of them.
+//! Set cover: a smallest set of columns such that each row contains one.
 //!
-//! Rows that hold another, and columns that another holds, are left out first; then the largest column again and again (greedy),
-//! what has become needless taken out, and, where little is left, branch and bound: a lower bound are rows that share no column.
-//! After Coudert, "Two-level logic minimization: an overview" (1994).
+//! First, dominated rows and columns are removed; then the largest column is taken repeatedly (greedy), redundant
+//! columns are dropped, and, if little is left, branch and bound follows, with disjoint rows as the lower bound. After
+//! Coudert, "Two-level logic minimization: an overview" (1994).
 
 use fixedbitset::FixedBitSet;
 use rustc_hash::FxHashSet;
 
 use super::super::solver::Stop;
 
-/// Columns that cover all rows.
+/// Set of columns that covers all rows.
 #[derive(Debug)]
 pub struct Cover {
-    /// The columns.
+    /// Columns chosen.
     pub chosen: Vec<usize>,
-    /// Whether it is proved that fewer do not cover all.
+    /// Whether the cover is proved to be minimum.
     pub is_smallest: bool,
 }
 
-/// Most rows and columns that any one of the steps may look at.
+/// Upper bound on rows and columns examined in each step.
 const MAX_WORK: usize = 5_000_000;
 
-/// A small set of columns that has one at least of each row. Rows are sets of columns; empty ones are passed over.
+/// Finds a small cover. Rows are sets of columns; empty ones are ignored.
 #[must_use]
 pub fn cover(rows: &[FixedBitSet], columns: usize, stop: &Stop) -> Cover {
     let rows = fewest(rows, columns);
-    // What is left, the other way round: which rows each column is in.
+    // Transposed matrix: the rows of each column.
     let mut of = vec![FixedBitSet::with_capacity(rows.len()); columns];
     for (at, row) in rows.iter().enumerate() {
         row.ones().for_each(|column| of[column].insert(at));
@@ -47,13 +47,13 @@ pub fn cover(rows: &[FixedBitSet], columns: usize, stop: &Stop) -> Cover {
     Cover { chosen, is_smallest: is_done }
 }
 
-/// The rows that hold no other, each once, as far as the work allows.
+/// Removes duplicate rows and rows that contain another row, as far as the work limit allows.
 fn fewest(rows: &[FixedBitSet], columns: usize) -> Vec<FixedBitSet> {
     let mut order = distinct(rows);
     order.sort_by_key(|(count, at)| (*count, *at));
     let mut times = vec![0_usize; columns];
     order.iter().for_each(|(_, at)| rows[*at].ones().for_each(|column| times[column] += 1));
-    // A row that is held by others is looked for where its rarest column is.
+    // Rows contained in this one are looked up under their rarest column.
     let mut kept: Vec<Vec<usize>> = vec![Vec::new(); columns];
     let (mut found, mut work) = (Vec::new(), 0);
     for (_, at) in order {
@@ -72,7 +72,7 @@ fn fewest(rows: &[FixedBitSet], columns: usize) -> Vec<FixedBitSet> {
     found
 }
 
-/// The columns that no other holds, largest first, as far as the work allows.
+/// Removes columns contained in another column, as far as the work limit allows; largest first.
 fn largest(columns: &[FixedBitSet]) -> Vec<usize> {
     let mut order = distinct(columns);
     order.sort_by_key(|(count, at)| (usize::MAX - count, *at));
@@ -90,17 +90,17 @@ fn largest(columns: &[FixedBitSet]) -> Vec<usize> {
     kept
 }
 
-/// Each set that is not empty once: how many are in it, and where it stands.
+/// Distinct non-empty sets: size and position of each.
 fn distinct(sets: &[FixedBitSet]) -> Vec<(usize, usize)> {
     let mut seen: FxHashSet<&FixedBitSet> = FxHashSet::default();
     let counted = sets.iter().enumerate().map(|(at, set)| (set.count_ones(..), at));
     counted.filter(|(count, at)| *count > 0 && seen.insert(&sets[*at])).collect()
 }
 
-/// The column with most of what is left, again and again.
+/// Greedy cover: repeatedly takes the column with most uncovered rows.
 fn greedy(columns: &[FixedBitSet], all: &FixedBitSet) -> Vec<usize> {
     let (mut left, mut chosen) = (all.clone(), Vec::new());
-    // What a column had before is a bound for what it has now.
+    // An earlier count is an upper bound of the current one.
     let mut bounds: Vec<usize> = columns.iter().map(|column| column.count_ones(..)).collect();
     while !left.is_clear() {
         let (mut most, mut best) = (0, None);
@@ -119,7 +119,7 @@ fn greedy(columns: &[FixedBitSet], all: &FixedBitSet) -> Vec<usize> {
     chosen
 }
 
-/// Takes out what the others cover, beginning with what was chosen last.
+/// Removes redundant columns, beginning with the last one chosen.
 fn lean(columns: &[FixedBitSet], all: &FixedBitSet, chosen: &mut Vec<usize>) {
     for at in (0..chosen.len()).rev() {
         let mut left = all.clone();
@@ -131,7 +131,7 @@ fn lean(columns: &[FixedBitSet], all: &FixedBitSet, chosen: &mut Vec<usize>) {
     }
 }
 
-/// Branch and bound.
+/// Branch-and-bound search.
 struct Search<'c> {
     sets: &'c [FixedBitSet],
     rows: &'c [Vec<usize>],
@@ -141,7 +141,7 @@ struct Search<'c> {
 }
 
 impl Search<'_> {
-    /// Looks for a smaller set that begins with the columns chosen so far. Whether nothing was left out.
+    /// Searches for a smaller cover that extends the columns chosen so far. Returns whether the search was exhaustive.
     fn branch(&mut self, left: &FixedBitSet, chosen: &mut Vec<usize>) -> bool {
         if left.is_clear() {
             if chosen.len() < self.best.len() {
@@ -175,7 +175,7 @@ impl Search<'_> {
         is_done
     }
 
-    /// So many rows share no column: each needs one of its own.
+    /// Lower bound: the number of pairwise disjoint rows, each of which needs a column of its own.
     fn bound(&mut self, left: &FixedBitSet) -> usize {
         let mut taken = FixedBitSet::with_capacity(self.sets.len());
         let mut rows: Vec<usize> = left.ones().collect();

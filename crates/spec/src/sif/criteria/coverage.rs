@@ -1,4 +1,4 @@
-//! Which faults tests find, which they miss, and why.
+//! Mutation score of tests: which single faults they find, which they miss, and why.
 
 use fixedbitset::FixedBitSet;
 
@@ -7,10 +7,10 @@ use super::super::plan::{ClassCoverage, Coverage, Missed};
 use super::completion::Completion;
 use super::pool::{Pool, Sight};
 
-/// Most missed faults that are told one by one.
+/// Upper bound on missed faults listed individually.
 const MAX_MISSED: usize = 1000;
 
-/// Measures tests: sets of inputs that are TRUE.
+/// Measures tests, given as sets of inputs that are TRUE.
 pub fn coverage(
     model: &Model<'_>,
     faults: &[Fault],
@@ -55,22 +55,22 @@ pub fn coverage(
     coverage
 }
 
-/// A whole test that shows a fault.
+/// A complete test that shows a fault.
 fn shown_by(model: &Model<'_>, pool: &Pool, completion: &mut Completion<'_>, fault: usize) -> Option<FixedBitSet> {
     let inputs = pool.rows[fault].ones().find_map(|test| completion.complete(&pool.tests[test]))?;
     Some(model.specification.settled(&inputs))
 }
 
-/// What tests expect of the function.
+/// Expected outputs of a set of tests.
 struct Expected {
-    /// Every test makes an output TRUE.
+    /// Whether every test makes an output TRUE.
     all: bool,
-    /// No test does.
+    /// Whether no test makes an output TRUE.
     none: bool,
 }
 
 impl Expected {
-    /// Why no test shows a fault.
+    /// Reason why no test shows a fault.
     fn why(
         &self,
         model: &Model<'_>,

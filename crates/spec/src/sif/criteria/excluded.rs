@@ -1,4 +1,4 @@
-//! What restrictions take away from a function's tests.
+//! Tests excluded by restrictions.
 
 use std::collections::HashMap;
 
@@ -14,11 +14,11 @@ use super::super::specification::Specification;
 use super::allowed::Allowed;
 use super::limits::{Limits, Questions};
 
-/// Most cubes that stand for valuations that are too many.
+/// Upper bound on cubes that summarise valuations too many to list.
 const MAX_CUBES: usize = 32;
 
-/// The valuations that make an output of a function TRUE and cannot be, and which restrictions exclude them. Only restrictions
-/// that have to do with its inputs are looked at.
+/// Valuations that make an output of a function TRUE but are not allowed, with the restrictions that exclude them. Only
+/// restrictions that concern the function's inputs are considered.
 #[must_use]
 pub fn excluded(specification: &Specification, function: usize, limits: &Limits) -> Excluded {
     let outputs = &specification.functions[function].outputs;
@@ -34,7 +34,7 @@ pub fn excluded(specification: &Specification, function: usize, limits: &Limits)
         cubes: Vec::new(),
     };
     if let Some(sets) = Allowed::of(&cone, outputs, limits, true) {
-        // Nothing is told by halves.
+        // All counts are reported, or none.
         if let Some(counted) = counted(&cone, &sets, limits, &found) {
             found = counted;
         }
@@ -42,7 +42,7 @@ pub fn excluded(specification: &Specification, function: usize, limits: &Limits)
     found
 }
 
-/// The same if the diagrams do not become too large.
+/// Counts the excluded valuations; `None` if a diagram becomes too large.
 fn counted(cone: &Cone<'_>, sets: &Allowed, limits: &Limits, of: &Excluded) -> Option<Excluded> {
     let specification = cone.specification;
     let diagrams = &sets.diagrams;
@@ -59,7 +59,7 @@ fn counted(cone: &Cone<'_>, sets: &Allowed, limits: &Limits, of: &Excluded) -> O
             continue;
         };
         let its = among(its)?;
-        // What could be without it.
+        // Valuations excluded by this restriction only.
         let only = diagrams.and(&excluded, without)?;
         if its.is_empty() && only.is_empty() {
             continue;
@@ -85,7 +85,7 @@ fn counted(cone: &Cone<'_>, sets: &Allowed, limits: &Limits, of: &Excluded) -> O
     Some(found)
 }
 
-/// Finds restrictions that exclude a valuation together.
+/// Finder of restrictions that exclude a valuation jointly.
 struct Together<'c> {
     cone: &'c Cone<'c>,
     questions: Questions,
@@ -99,7 +99,7 @@ impl<'c> Together<'c> {
         Self { cone, questions, encoded }
     }
 
-    /// The positions of restrictions none of which could be left out.
+    /// Positions of a minimal set of restrictions that excludes the valuation.
     fn exclude(&mut self, valuation: &FixedBitSet) -> Vec<usize> {
         let literal = |input: &SignalId| {
             let literal = self.encoded.literals[input.0];

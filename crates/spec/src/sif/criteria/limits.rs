@@ -1,20 +1,20 @@
-//! How much work may be done, and questions to a solver that end.
+//! Work limits, and a solver whose questions end.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::super::solver::{Answer, Literal, Solver, Stop};
 
-/// How much work may be done. What it does not suffice for is said in the plan.
+/// Work limits. A plan reports what they did not suffice for.
 #[derive(Clone)]
 pub struct Limits {
-    /// Whether the work is to end at once.
+    /// Whether to stop at once.
     pub stop: Stop,
-    /// Most tests that are listed.
+    /// Upper bound on tests listed.
     pub tests: usize,
-    /// Most nodes of a decision diagram.
+    /// Upper bound on nodes of a decision diagram.
     pub nodes: usize,
-    /// Most decisions of a solver about one question.
+    /// Upper bound on decisions of a solver per question.
     pub effort: u64,
 }
 
@@ -24,16 +24,16 @@ impl Default for Limits {
     }
 }
 
-/// A solver that gives every question the same effort.
+/// Solver with the same effort for every question.
 pub struct Questions {
-    /// The solver: clauses are told to it directly.
+    /// Solver; clauses are added to it directly.
     pub solver: Solver,
     left: Arc<AtomicU64>,
     effort: u64,
 }
 
 impl Questions {
-    /// A solver without clauses.
+    /// Creates a solver without clauses.
     #[must_use]
     pub fn new(limits: &Limits) -> Self {
         let left = Arc::new(AtomicU64::new(0));
@@ -46,15 +46,15 @@ impl Questions {
         Self { solver: Solver::new(&stop), left, effort: limits.effort }
     }
 
-    /// Looks for a model in which all of these are true.
+    /// Searches for a model under assumptions.
     pub fn ask(&mut self, assumed: &[Literal]) -> Answer {
-        // Assumptions are decisions, too.
+        // Assumptions count as decisions, too.
         self.left.store(self.effort + 2 * assumed.len() as u64, Ordering::Relaxed);
         self.solver.solve(assumed)
     }
 
-    /// A model in which all of `fixed` are true and as many of `wished` as can be, the first ones first: no more of them could be
-    /// true beside those that are. Gives what the wishes came to.
+    /// A model of `fixed` that satisfies a maximal set of `wished`, earlier wishes first: none of the others can be
+    /// added. Returns which wishes hold.
     pub fn closest(&mut self, fixed: &[Literal], wished: &[Literal]) -> Option<Vec<bool>> {
         let mut assumed: Vec<Literal> = fixed.iter().chain(wished).copied().collect();
         match self.ask(&assumed) {

@@ -1,4 +1,5 @@
-//! Modified condition/decision coverage: each condition of a formula is seen to decide its outcome, TRUE and FALSE.
+//! Modified condition/decision coverage (MC/DC): each condition is shown to decide the outcome, both as TRUE and as
+//! FALSE.
 //!
 //! A *condition* is a literal where it stands, a *decision* an equation. A test shows a condition if an output of the function
 //! would change with it (its Boolean difference is 1). Two tests that show it and in which it and the outcome differ are a pair:
@@ -21,14 +22,14 @@ use super::limits::{Limits, Questions};
 use super::pairing::{Pairing, select};
 use super::pool::Pool;
 
-/// How a condition is shown.
+/// Form of MC/DC by which a condition is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     UniqueCause,
     Masking,
 }
 
-/// Tests for each condition that can decide.
+/// Selects tests for each condition that can decide.
 pub fn mcdc(model: &Model<'_>, pool: &Pool, limits: &Limits) -> Choice {
     let is_literal = |node: &usize| matches!(model.nodes[*node].what, What::Literal(_));
     let conditions: Vec<usize> = (0..model.nodes.len()).filter(is_literal).collect();
@@ -100,7 +101,7 @@ pub fn mcdc(model: &Model<'_>, pool: &Pool, limits: &Limits) -> Choice {
     choice
 }
 
-/// What tests make of each node.
+/// Values of all nodes in each test.
 struct Facts {
     count: usize,
     views: Vec<View<u64>>,
@@ -112,7 +113,7 @@ impl Facts {
         Self { count: tests.len(), views }
     }
 
-    /// Looks at tests that have come to those before.
+    /// Adds the tests that are new since the last call.
     fn add(&mut self, model: &Model<'_>, tests: &[FixedBitSet]) {
         let full = self.count / 64;
         self.views.truncate(full);
@@ -120,7 +121,7 @@ impl Facts {
         self.count = tests.len();
     }
 
-    /// Which tests make pairs for a condition.
+    /// Pairs of tests for a condition.
     fn pairing(&self, model: &Model<'_>, node: usize, kind: Kind) -> Pairing {
         let equation = &model.equations[model.nodes[node].equation];
         let What::Literal(own) = model.nodes[node].what else { return Pairing::default() };
@@ -136,9 +137,9 @@ impl Facts {
                 continue;
             }
             let (value, outcome) = (has(view.values[node]), has(view.values[equation.root]));
-            // Tests of one group and different sides are a pair.
+            // Tests of the same group on different sides form a pair.
             let key: Vec<u64> = match kind {
-                // The outcomes differ too: a name that stands twice may change it back.
+                // The outcomes must differ, too: a name that occurs twice may cancel its own effect.
                 Kind::UniqueCause => {
                     let mut key = vec![0; others.len().div_ceil(64) + 1];
                     key[0] = u64::from(value != outcome);
@@ -165,11 +166,11 @@ struct Twins<'m> {
     copies: [(Encoded, View<Literal>); 2],
 }
 
-/// What a solver says of a pair.
+/// Result of a search for a pair.
 enum Found {
-    /// The valuations, of the inputs that vary: the condition FALSE, and TRUE.
+    /// Valuations of the varied inputs: with the condition FALSE, and TRUE.
     Pair(Box<[FixedBitSet; 2]>),
-    /// There is none, because of these restrictions.
+    /// No pair exists, because of these restrictions.
     None(Vec<String>),
     /// The limits did not suffice.
     Stopped,

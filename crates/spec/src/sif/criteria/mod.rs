@@ -1,8 +1,9 @@
-//! Tests by criterion: which valuations of its inputs a function is to be tried with.
+//! Test generation by criterion: the valuations of its inputs with which a function is tested.
 //!
-//! What all criteria need is found once for a function ([`Study`]): the set of valuations that can be, as a decision diagram if that
-//! stays small enough; all of them, if they are few, or else valuations that a solver found, which show every fault that can be
-//! seen; and how the inputs are set that do not matter. Each criterion then chooses.
+//! Data shared by all criteria is computed once per function ([`Study`]): the set of allowed valuations, as a decision
+//! diagram if that stays small enough; the valuations themselves if they are few, or else a selection found by a solver
+//! that shows every detectable fault; and the values of the inputs that do not matter. Each criterion then selects
+//! tests.
 
 mod all;
 mod allowed;
@@ -29,13 +30,13 @@ use fixedbitset::FixedBitSet;
 use super::plan::{Coverage, Criterion, Plan};
 use super::specification::Specification;
 
-/// The tests of a function by one criterion. Whoever wants several asks a [`Study`].
+/// Generates the tests of a function by one criterion. For several criteria, use a [`Study`].
 #[must_use]
 pub fn plan(specification: &Specification, function: usize, criterion: Criterion, limits: &Limits) -> Plan {
     Study::new(specification, function, limits).plan(criterion)
 }
 
-/// Which single faults of a function tests find that somebody else made: sets of the inputs that are TRUE.
+/// Mutation score of given tests of a function (sets of inputs that are TRUE).
 #[must_use]
 pub fn coverage_of(specification: &Specification, function: usize, tests: &[FixedBitSet], limits: &Limits) -> Coverage {
     Study::new(specification, function, limits).coverage(tests)

@@ -1,28 +1,28 @@
-//! The order of tests: few inputs switched from one to the next.
+//! Order of tests: few inputs switched from one test to the next.
 
 use fixedbitset::FixedBitSet;
 
 use petril_check::simulate::Lots;
 
-/// Most tests that are put in order by exchanging pieces; more are only taken each after its nearest.
+/// Upper bound on tests ordered by local search; more are only ordered by nearest neighbour.
 const MAX_EXCHANGED: usize = 1000;
 
-/// Most tests of which pieces are moved, too.
+/// Upper bound on tests for which segments are also moved (Or-opt).
 const MAX_SHIFTED: usize = 250;
 
-/// Most passes over all pieces.
+/// Upper bound on passes over all segments.
 const MAX_PASSES: usize = 8;
 
-/// Most attempts to find a better order by chance, and most pairs of tests looked at for that.
+/// Upper bounds on random restarts, and on pairs of tests examined for them.
 const MAX_ROUNDS: usize = 60;
 const MAX_WORK: usize = 100_000;
 
-/// Longest piece that is moved elsewhere.
+/// Longest segment that is moved.
 const MAX_MOVED: usize = 3;
 
-/// An order of tests, as their positions: the first is the nearest to rest, each next the nearest to the one before (nearest
-/// neighbour), and then pieces are turned round and moved as long as that saves switching (2-opt: Croes, "A method for solving
-/// traveling-salesman problems", 1958; Or-opt).
+/// An order of tests, as positions. The first test is the one nearest to rest, each next one the nearest to its
+/// predecessor (nearest neighbour); then segments are reversed and moved as long as that saves switching (2-opt: Croes,
+/// "A method for solving traveling-salesman problems", 1958; Or-opt).
 #[must_use]
 pub fn ordered(tests: &[FixedBitSet], rest: &FixedBitSet) -> Vec<usize> {
     let count = tests.len();
@@ -42,7 +42,7 @@ pub fn ordered(tests: &[FixedBitSet], rest: &FixedBitSet) -> Vec<usize> {
     }
     if count <= MAX_EXCHANGED {
         exchange(&mut order, distance);
-        // From a good order with three pieces exchanged by chance, one may come to a better one (Martin, Otto and Felten, 1991).
+        // Random double-bridge moves lead out of local optima (Martin, Otto and Felten, 1991).
         let length = |order: &[usize]| order.windows(2).map(|pair| distance(pair[0], pair[1])).sum::<u32>();
         let mut lots = Lots::new(4);
         let (mut shortest, inner) = (length(&order), count.saturating_sub(1) as u128);
@@ -60,7 +60,7 @@ pub fn ordered(tests: &[FixedBitSet], rest: &FixedBitSet) -> Vec<usize> {
     order
 }
 
-/// Exchanges pieces as long as that saves switching.
+/// Local search: improves segments as long as that saves switching.
 fn exchange(order: &mut [usize], distance: impl Fn(usize, usize) -> u32 + Copy) {
     for _ in 0..MAX_PASSES {
         let is_turned = turn(order, distance);
@@ -71,7 +71,7 @@ fn exchange(order: &mut [usize], distance: impl Fn(usize, usize) -> u32 + Copy) 
     }
 }
 
-/// Turns pieces round where that saves switching; the first test stays. Whether it did.
+/// 2-opt: reverses segments where that saves switching; the first test stays. Returns whether the order improved.
 fn turn(order: &mut [usize], distance: impl Fn(usize, usize) -> u32) -> bool {
     let mut is_better = false;
     for from in 1..order.len() {
@@ -89,7 +89,8 @@ fn turn(order: &mut [usize], distance: impl Fn(usize, usize) -> u32) -> bool {
     is_better
 }
 
-/// Moves short pieces to places further on or back, turned round or not, where that saves switching.
+/// Or-opt: moves short segments forward or back, reversed or not, where that saves switching. Returns whether the order
+/// improved.
 fn shift(order: &mut [usize], distance: impl Fn(usize, usize) -> u32) -> bool {
     let mut is_better = false;
     for length in 1..=MAX_MOVED {
@@ -127,7 +128,7 @@ fn shift(order: &mut [usize], distance: impl Fn(usize, usize) -> u32) -> bool {
     is_better
 }
 
-/// The inputs that are not the same in all tests, packed: so many words for each test.
+/// Inputs that differ between tests, packed: an equal number of words for each test.
 fn different(tests: &[FixedBitSet]) -> Vec<u64> {
     let mut seen = tests.first().cloned().unwrap_or_default();
     let mut always = seen.clone();

@@ -1,40 +1,40 @@
-//! Few tests that hold a pair for each of many conditions.
+//! Selection of few tests that contain a pair for each of many conditions.
 
 use fixedbitset::FixedBitSet;
 
 use petril_check::simulate::Lots;
 
-/// How often tests are chosen anew, in another order of the conditions.
+/// Number of random restarts with another order of the conditions.
 const ROUNDS: usize = 24;
 
-/// The pairs of tests for one condition: any two of one group that stand on different sides.
+/// Pairs of tests for one condition: any two of the same group on different sides.
 #[derive(Clone, Debug, Default)]
 pub struct Pairing {
-    /// Test, group and side.
+    /// Entries: test, group and side.
     entries: Vec<(usize, usize, bool)>,
     groups: usize,
 }
 
 impl Pairing {
-    /// Puts a test into a group, on a side. Tests come in their order.
+    /// Puts a test into a group, on a side. Tests come in ascending order.
     pub fn put(&mut self, test: usize, group: usize, side: bool) {
         self.entries.push((test, group, side));
         self.groups = self.groups.max(group + 1);
     }
 
-    /// Leaves out groups without pairs.
+    /// Removes groups without pairs.
     pub fn settle(&mut self) {
         let mut sides = vec![[false; 2]; self.groups];
         self.entries.iter().for_each(|(_, group, side)| sides[*group][usize::from(*side)] = true);
         self.entries.retain(|(_, group, _)| sides[*group] == [true, true]);
     }
 
-    /// Whether there is a pair.
+    /// Whether a pair exists.
     pub fn is_possible(&self) -> bool {
         !self.entries.is_empty()
     }
 
-    /// A pair among these tests: the side FALSE first.
+    /// A pair among these tests, the side FALSE first.
     pub fn pair_in(&self, tests: &[usize]) -> Option<[usize; 2]> {
         let find = |test: &usize| self.entries.binary_search_by_key(test, |(test, ..)| *test).ok();
         let here: Vec<_> = tests.iter().filter_map(find).map(|at| self.entries[at]).collect();
@@ -45,7 +45,7 @@ impl Pairing {
         })
     }
 
-    /// The pair that brings in the fewest tests; among these, the most useful.
+    /// The pair that adds the fewest tests; among these, the most useful one.
     fn best(&self, chosen: &FixedBitSet, use_of: &[usize]) -> Option<[usize; 2]> {
         let mut best: Vec<[Option<usize>; 2]> = vec![[None; 2]; self.groups];
         let rank = |test: usize| (chosen.contains(test), use_of[test]);
@@ -64,11 +64,11 @@ impl Pairing {
     }
 }
 
-/// Few tests, of so many, that hold a pair of each pairing.
+/// Selects few of `tests` tests that contain a pair of each pairing.
 pub fn select(pairings: &[Pairing], tests: usize) -> Vec<usize> {
     let mut use_of = vec![0; tests];
     pairings.iter().flat_map(|pairing| &pairing.entries).for_each(|(test, ..)| use_of[*test] += 1);
-    // Conditions with few pairs first: the others find what they need among these.
+    // Conditions with few pairs come first: the others often find a pair among those tests.
     let mut order: Vec<usize> = (0..pairings.len()).collect();
     order.sort_by_key(|at| pairings[*at].entries.len());
     let mut lots = Lots::new(2);
@@ -96,7 +96,7 @@ fn once(pairings: &[Pairing], order: &[usize], use_of: &[usize]) -> Vec<usize> {
             chosen.extend(pair.into_iter().filter(|test| !set.put(*test)));
         }
     }
-    // What the others do as well.
+    // Removes redundant tests.
     let mut at = 0;
     while at < chosen.len() {
         let test = chosen.remove(at);

@@ -1,8 +1,8 @@
-//! Every two inputs have all values together that they can have.
+//! Pairwise testing: any two inputs take all value combinations that are allowed.
 //!
-//! Where all valuations are known, a small set of them is a cover. Where they are too many, tests are built one after the other,
-//! input by input, each taking the value that makes more new pairs. After Cohen, Dalal, Fredman and Patton, "The AETG system: an
-//! approach to testing based on combinatorial design" (1997); restrictions are kept by a solver.
+//! If all valuations are known, a small set is found as a set cover. If they are too many, tests are built one by one,
+//! input by input, each taking the value that makes more new pairs. After Cohen, Dalal, Fredman and Patton, "The AETG
+//! system: an approach to testing based on combinatorial design" (1997); a solver keeps the restrictions.
 
 use fixedbitset::FixedBitSet;
 
@@ -16,13 +16,13 @@ use super::limits::{Limits, Questions};
 use super::pool::Pool;
 use petril_check::simulate::Lots;
 
-/// Most bits for a table of pairs and valuations.
+/// Upper bound on the bits of a table of pairs and valuations.
 const MAX_BITS: usize = 1 << 28;
 
-/// How many tests are built before the best is taken.
+/// Number of candidate tests of which the best is taken.
 const CANDIDATES: usize = 6;
 
-/// Tests in which any two inputs have all values that they can have.
+/// Generates tests that cover all allowed pairs of values.
 pub fn pairs(model: &Model<'_>, pool: &Pool, limits: &Limits) -> Choice {
     let inputs = model.cone.inputs.len();
     if pool.is_all && inputs * inputs * 2 * pool.tests.len() <= MAX_BITS {
@@ -32,7 +32,7 @@ pub fn pairs(model: &Model<'_>, pool: &Pool, limits: &Limits) -> Choice {
     }
 }
 
-/// Of all valuations.
+/// Covers the pairs by a selection of all valuations.
 fn covered(model: &Model<'_>, pool: &Pool, limits: &Limits) -> Choice {
     let inputs = &model.cone.inputs;
     let mut columns: Vec<[FixedBitSet; 2]> = Vec::new();
@@ -45,7 +45,7 @@ fn covered(model: &Model<'_>, pool: &Pool, limits: &Limits) -> Choice {
     }
     let mut rows = Vec::new();
     for (at, a) in columns.iter().enumerate() {
-        // A single input has two values, with nothing beside it.
+        // A single input has two values and no partner.
         if columns.len() == 1 {
             rows.extend(a.iter().cloned());
         }
@@ -72,10 +72,10 @@ fn note(all: usize, impossible: usize) -> Vec<String> {
     vec![format!("{all} pairs of values{cannot}")]
 }
 
-/// An input, by its position among those that vary, with a value.
+/// Value of an input, given by its position among the varied ones.
 type Value = (usize, bool);
 
-/// Which pairs of values have not been seen yet.
+/// Pairs of values not covered yet.
 struct Open {
     inputs: usize,
     open: FixedBitSet,
@@ -100,13 +100,13 @@ impl Open {
         self.open.contains(self.at(a, b))
     }
 
-    /// Both ways round.
+    /// Marks a pair as covered, in both orders.
     fn close(&mut self, a: Value, b: Value) {
         let places = [self.at(a, b), self.at(b, a)];
         places.into_iter().for_each(|place| self.open.set(place, false));
     }
 
-    /// The first pair that is open, from a place on.
+    /// First uncovered pair from an index on.
     fn next(&self, from: usize) -> Option<(usize, Value, Value)> {
         let mut place = from;
         while place < self.open.len() {
@@ -119,13 +119,13 @@ impl Open {
         None
     }
 
-    /// How many open pairs a value makes with values that are set.
+    /// Number of uncovered pairs that a value forms with values already set.
     fn gain(&self, value: Value, set: &[Value]) -> usize {
         set.iter().filter(|other| self.is_open(value, **other)).count()
     }
 }
 
-/// One after the other.
+/// Builds tests one by one.
 fn built(model: &Model<'_>, limits: &Limits) -> Choice {
     let inputs = &model.cone.inputs;
     let mut builder = Builder::new(model, limits);
@@ -180,21 +180,21 @@ fn built(model: &Model<'_>, limits: &Limits) -> Choice {
     }
 }
 
-/// Makes tests input by input.
+/// Builder of tests, input by input.
 struct Builder {
     parts: Vec<Part>,
-    /// For each input that varies, the part that restrictions join it with.
+    /// Group of each varied input that occurs in a restriction.
     of: Vec<Option<usize>>,
     lots: Lots,
 }
 
-/// Inputs that restrictions join, on their own.
+/// Inputs that are related by restrictions, with a solver of their own.
 struct Part {
     questions: Questions,
-    /// The inputs that vary, by their positions, and their literals.
+    /// Varied inputs of the group, by position, with their literals.
     literals: Vec<(usize, Literal)>,
     assumed: Vec<Literal>,
-    /// Values that can be beside those that are set.
+    /// Values compatible with those already set.
     model: Vec<Value>,
 }
 
@@ -248,7 +248,7 @@ impl Builder {
         Self { parts, of, lots: Lots::new(3) }
     }
 
-    /// A test with these two values.
+    /// Builds a test with these two values.
     fn build(&mut self, a: Value, b: Value, open: &Open) -> Result<Vec<Value>, Answer> {
         for part in &mut self.parts {
             let wanted = [a, b].into_iter().filter_map(|value| part.literal(value)).collect();
@@ -277,7 +277,7 @@ impl Builder {
 }
 
 impl Part {
-    /// Sets an input: as is wished if that can be; if it is all the same, as in the model.
+    /// Sets an input as wished if possible; if the wish does not matter, as in the model.
     fn take(&mut self, at: usize, wish: bool, is_indifferent: bool) -> bool {
         let is_so = self.holds((at, wish));
         let wished = self.literal((at, wish));

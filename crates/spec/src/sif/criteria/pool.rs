@@ -1,4 +1,4 @@
-//! Valuations to choose tests from, and which faults each of them shows.
+//! Pool of valuations to select tests from, with the faults each of them shows.
 
 use fixedbitset::FixedBitSet;
 
@@ -10,52 +10,52 @@ use super::limits::{Limits, Questions};
 use super::sample::sample;
 use petril_check::simulate::Lots;
 
-/// Most valuations of which all are tried.
+/// Upper bound on valuations for the pool to hold all of them.
 const MAX_ALL: u64 = 1 << 14;
 
-/// Most bits that it may take to know which valuation shows which fault.
+/// Upper bound on the bits of the table of valuations and faults.
 const MAX_BITS: u64 = 1 << 30;
 
-/// How many valuations by chance are tried before a solver is asked.
+/// Number of random valuations tried before the solver is asked.
 const BY_CHANCE: usize = 128;
 
-/// How many faults further on in the list a valuation from the solver is made to show, if it can.
+/// Upper bound on later faults that a valuation from the solver is extended to show.
 const MAX_PACKED: usize = 64;
 
-/// After how many of them in a row that it cannot show no more are tried.
+/// Number of consecutive failures after which the extension ends.
 const MAX_MISSES: usize = 8;
 
-/// Valuations of the inputs that vary, all of which can be.
+/// Pool of allowed valuations of the varied inputs.
 pub struct Pool {
-    /// The valuations.
+    /// Valuations.
     pub tests: Vec<FixedBitSet>,
     /// For each fault, the valuations that show it.
     pub rows: Vec<FixedBitSet>,
-    /// For each fault, whether it can be seen.
+    /// Detectability of each fault.
     pub sights: Vec<Sight>,
-    /// Whether these are all valuations that can be.
+    /// Whether the pool holds all allowed valuations.
     pub is_all: bool,
 }
 
-/// Whether a fault can be seen.
+/// Detectability of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sight {
-    /// A valuation of the pool shows it.
+    /// A valuation of the pool shows the fault.
     Shown,
-    /// No valuation that can be shows it.
+    /// The fault is equivalent: no allowed valuation shows it.
     Equivalent,
-    /// The limits did not suffice to tell.
+    /// The limits did not suffice to decide.
     Undecided,
 }
 
 impl Pool {
-    /// Where no valuation can be, no fault can be seen.
+    /// Pool without allowed valuations, where no fault is detectable.
     pub fn empty(faults: usize) -> Self {
         let (rows, sights) = (vec![FixedBitSet::new(); faults], vec![Sight::Equivalent; faults]);
         Self { tests: Vec::new(), rows, sights, is_all: true }
     }
 
-    /// All valuations that can be if they are few, else some that show every fault that can be seen.
+    /// Collects all allowed valuations if they are few, else some that show every detectable fault.
     pub fn new(model: &Model<'_>, faults: &[Fault], allowed: Option<&Allowed>, limits: &Limits) -> Self {
         let count = allowed.and_then(|sets| sets.diagrams.count_if_few(&sets.allowed));
         let is_few = |count: &u64| *count <= MAX_ALL && count.saturating_mul(faults.len() as u64) <= MAX_BITS;
@@ -72,7 +72,7 @@ impl Pool {
     }
 }
 
-/// For each fault, which tests show it.
+/// For each fault, the tests that show it.
 pub fn rows(model: &Model<'_>, faults: &[Fault], tests: &[FixedBitSet]) -> Vec<FixedBitSet> {
     let mut words = vec![Vec::with_capacity(tests.len().div_ceil(64)); faults.len()];
     for batch in tests.chunks(64) {
@@ -85,7 +85,7 @@ pub fn rows(model: &Model<'_>, faults: &[Fault], tests: &[FixedBitSet]) -> Vec<F
     words.into_iter().map(|words| FixedBitSet::with_capacity_and_blocks(tests.len(), words)).collect()
 }
 
-/// Valuations by chance first, then one from the solver for each fault that is still open, with its neighbours.
+/// Collects random valuations first, then one from the solver for each fault still open, with its neighbours.
 fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
     let mut questions = Questions::new(limits);
     let encoded = model.cone.encode(&mut questions.solver);
@@ -105,7 +105,7 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
         open.filter(|(fault, _)| view.kills(model, fault) & used != 0).for_each(|(_, sight)| *sight = Sight::Shown);
     }
     let mut lots = Lots::new(1);
-    // Nodes that decide nothing hide all their faults at once.
+    // A node that is never observed hides all its faults.
     let mut is_hidden: Vec<Option<bool>> = vec![None; model.nodes.len()];
     for at in 0..faults.len() {
         if sights[at] != Sight::Undecided {
@@ -141,7 +141,7 @@ fn searched(model: &Model<'_>, faults: &[Fault], limits: &Limits) -> Pool {
     Pool { tests, rows, sights, is_all: false }
 }
 
-/// A valuation that is to show as many faults as can be.
+/// Valuation that is to show as many faults as possible.
 struct Packed<'p, 'm> {
     model: &'p Model<'m>,
     questions: &'p mut Questions,
@@ -151,12 +151,12 @@ struct Packed<'p, 'm> {
 }
 
 impl Packed<'_, '_> {
-    /// Wants further faults to be shown, one after the other, beside what it shows already.
+    /// Requires further faults to be shown, one by one, besides those shown already.
     fn pack<'f>(&mut self, seen: Literal, open: impl Iterator<Item = &'f Fault>) {
         let (mut assumed, mut misses) = (vec![seen], 0);
         let mut known = View::of(self.model, std::slice::from_ref(&self.found));
         for fault in open.take(MAX_PACKED) {
-            // What the solver left as it was is mostly left so again, without a word.
+            // The solver tends to keep values, so a fault shown already needs no extra requirement.
             if known.kills(self.model, fault) & 1 == 1 {
                 continue;
             }
@@ -189,7 +189,7 @@ fn neighbours(model: &Model<'_>, valuation: &FixedBitSet, lots: &mut Lots) -> Ve
     near
 }
 
-/// Those of up to 64 valuations that can be and show what was not seen before.
+/// Selects, of up to 64 valuations, allowed ones that show faults not shown before.
 fn useful(model: &Model<'_>, faults: &[Fault], sights: &mut [Sight], near: &[FixedBitSet]) -> Vec<FixedBitSet> {
     let view = View::of(model, near);
     let can_be = model.cone.allows(&|signal| view.signals[signal.0]) & (u64::MAX >> (64 - near.len()));

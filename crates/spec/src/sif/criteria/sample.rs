@@ -1,4 +1,4 @@
-//! Valuations by chance that can be.
+//! Random allowed valuations.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,11 +8,11 @@ use super::super::solver::{Answer, Literal};
 use super::limits::{Limits, Questions};
 use petril_check::simulate::Lots;
 
-/// Most wishes that are given up for one valuation, one after the other.
+/// Upper bound on wishes dropped for one valuation.
 const MAX_REPAIRS: usize = 200;
 
-/// So many valuations of all inputs of a cone that can be, by chance, the same every time. What restrictions do not allow is repaired:
-/// of what is to blame, one thing by chance is given up, until the rest can be.
+/// Random allowed valuations of all inputs of a cone; the seed is fixed. A valuation that violates restrictions is
+/// repaired: a random wish of the unsatisfiable core is dropped until the rest is allowed.
 pub fn sample(
     model: &Model<'_>,
     questions: &mut Questions,
@@ -24,7 +24,7 @@ pub fn sample(
     let inputs: Vec<_> = model.cone.all_inputs().collect();
     let mut found = Vec::new();
     for number in 0..count {
-        // Few ones, as many as zeros, many ones: gates with many operands are rarely decided by halves.
+        // Few ones, as many as zeros, many ones: gates with many operands need skewed inputs.
         let quarters = [2, 1, 3, 2][number % 4];
         let wishes = inputs.iter().map(|input| (*input, lots.below(4) < quarters));
         let wishes: Vec<_> = wishes.collect();

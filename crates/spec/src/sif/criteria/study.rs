@@ -1,4 +1,4 @@
-//! What all criteria need to know of one function, found once.
+//! Data of one function shared by all criteria, computed once.
 
 use fixedbitset::FixedBitSet;
 
@@ -17,7 +17,7 @@ use super::order::ordered;
 use super::pairs::pairs;
 use super::pool::{Pool, Sight};
 
-/// A function with its faults and the valuations that show them.
+/// Function with its faults and the valuations that show them.
 pub struct Study<'s> {
     model: Model<'s>,
     limits: Limits,
@@ -28,7 +28,7 @@ pub struct Study<'s> {
 }
 
 impl<'s> Study<'s> {
-    /// Finds what the criteria need.
+    /// Computes the data.
     #[must_use]
     pub fn new(specification: &'s Specification, function: usize, limits: &Limits) -> Self {
         let model = Model::new(specification, function);
@@ -43,7 +43,7 @@ impl<'s> Study<'s> {
         Self { model, limits: limits.clone(), faults, allowed, pool, completion }
     }
 
-    /// The tests by a criterion.
+    /// Generates the tests by a criterion.
     pub fn plan(&mut self, criterion: Criterion) -> Plan {
         if self.pool.is_all && self.pool.tests.is_empty() {
             let note = "no valuation can be: the restrictions contradict each other".to_owned();
@@ -59,12 +59,12 @@ impl<'s> Study<'s> {
         self.finished(criterion, choice)
     }
 
-    /// Which faults tests find: sets of the inputs that are TRUE.
+    /// Mutation score of tests (sets of inputs that are TRUE).
     pub fn coverage(&mut self, tests: &[FixedBitSet]) -> Coverage {
         coverage(&self.model, &self.faults, &self.pool, &mut self.completion, tests)
     }
 
-    /// A small set that shows every fault that can be seen.
+    /// Criterion `faults`: a small set of tests that shows every detectable fault.
     fn killing(&self) -> Choice {
         let found = cover(&self.pool.rows, self.pool.tests.len(), &self.limits.stop);
         let undecided = self.pool.sights.iter().filter(|sight| **sight == Sight::Undecided).count();
@@ -80,7 +80,7 @@ impl<'s> Study<'s> {
         }
     }
 
-    /// What only one of the chosen tests shows.
+    /// Faults shown by only one of the chosen tests, in words.
     fn alone(&self, test: usize, chosen: &[usize]) -> Vec<String> {
         let shows =
             |row: &&FixedBitSet| row.contains(test) && chosen.iter().filter(|at| row.contains(**at)).count() == 1;
@@ -94,7 +94,7 @@ impl<'s> Study<'s> {
         vec![format!("alone finds {}: {}{more}", first.class.name(), described(&self.model, first))]
     }
 
-    /// Whole tests in their order, with what they find.
+    /// Completes and orders the tests, and measures them.
     fn finished(&mut self, criterion: Criterion, mut choice: Choice) -> Plan {
         let specification = self.model.specification;
         choice.purposes.resize(choice.tests.len(), Vec::new());
@@ -119,7 +119,7 @@ impl<'s> Study<'s> {
         };
         let tests: Vec<Test> = order.into_iter().map(test).collect();
         let values: Vec<FixedBitSet> = tests.iter().map(|test| test.values.clone()).collect();
-        // Where the tests are too many to be listed, nothing is known of what they would find.
+        // If the tests are too many to list, their mutation score is not known.
         let is_unlisted = tests.is_empty() && choice.incomplete.is_some();
         let coverage = if is_unlisted { Coverage::default() } else { self.coverage(&values) };
         Plan {
@@ -136,7 +136,7 @@ impl<'s> Study<'s> {
         }
     }
 
-    /// The outputs that depend on the inputs that vary, the function's own first.
+    /// Outputs that depend on the varied inputs, the function's own first.
     fn touched(&self) -> Vec<SignalId> {
         let specification = self.model.specification;
         let mut reached = specification.valuation(self.model.cone.inputs.iter().copied());

@@ -1,41 +1,41 @@
-//! All single faults of a model.
+//! Enumeration of all single faults of a model.
 
 use super::super::formula::{Operator, SignalId};
 use super::class::Class;
 use super::model::Model;
 use super::nodes::{What, formula};
 
-/// A fault: one node is something else.
+/// Single fault: a change at one node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fault {
-    /// Its class.
+    /// Class of the fault.
     pub class: Class,
-    /// The node, by its position in the model.
+    /// Position of the node in the model.
     pub node: usize,
-    /// What happens to it.
+    /// Change of the node.
     pub change: Change,
 }
 
-/// What happens to a node.
+/// Change of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Change {
-    /// It is negated.
+    /// Negation.
     Negated,
-    /// It is always this.
+    /// Stuck-at constant.
     Stuck(bool),
-    /// It has another operator.
+    /// Replacement of the operator.
     Operator(Operator),
-    /// It is `->` from its second operand to its first.
+    /// Reversed implication: `->` from the second operand to the first.
     Converse,
-    /// The operand at this position is missing.
+    /// Omission of the operand at this position.
     Without(usize),
-    /// It has a further operand: this signal, or its opposite if FALSE stands beside it.
+    /// Insertion of an operand: this signal if TRUE, its negation if FALSE.
     With(SignalId, bool),
-    /// It is this literal instead.
+    /// Replacement by this literal (negated if FALSE).
     Literal(SignalId, bool),
 }
 
-/// The faults of a function, by class, then by place.
+/// Lists the faults of a function, by class, then by position.
 #[must_use]
 pub fn faults(model: &Model<'_>) -> Vec<Fault> {
     let mut found = Vec::new();
@@ -66,7 +66,7 @@ pub fn faults(model: &Model<'_>) -> Vec<Fault> {
                 }
                 if matches!(operator, Operator::And | Operator::Or | Operator::Xor) && operands.len() > 1 {
                     for (position, operand) in operands.iter().enumerate() {
-                        // Which of two that stand side by side is missing makes no difference.
+                        // Of adjacent equal operands, omitting either is one fault.
                         if position > 0 && same(operands[position - 1], *operand) {
                             continue;
                         }
@@ -100,7 +100,7 @@ pub fn faults(model: &Model<'_>) -> Vec<Fault> {
     found
 }
 
-/// What an operator is easily confused with, beside `->` from right to left.
+/// Operators that an operator is easily confused with, apart from the reversed `->`.
 fn others(operator: Operator, operands: usize) -> &'static [Operator] {
     match operator {
         _ if operands < 2 => &[],

@@ -1,6 +1,6 @@
-//! The classes of faults.
+//! Classes of faults.
 
-/// A class of single faults: see the table in the module.
+/// Class of single faults: see the table in the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[expect(missing_docs, reason = "the table says what they are")]
 pub enum Class {
@@ -17,7 +17,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// All of them, in the order of the table.
+    /// All classes, in the order of the table.
     pub const ALL: [Self; 10] = [
         Self::LiteralNegation,
         Self::TermNegation,
@@ -31,7 +31,7 @@ impl Class {
         Self::StuckAtTrue,
     ];
 
-    /// What it is called.
+    /// Name of the class.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

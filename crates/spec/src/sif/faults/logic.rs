@@ -1,33 +1,33 @@
-//! What gates make of their operands, for 64 valuations at once or as conditions of a solver: written once for both.
+//! Gate semantics, written once for 64 valuations at once and for literals of a solver.
 
 use super::super::formula::{Formula, Operator, SignalId};
 use super::super::solver::{Literal, Solver};
 
-/// Values that gates can be computed with.
+/// Boolean algebra that gates can be evaluated in.
 pub trait Logic {
-    /// A truth value, or many.
+    /// Value: one Boolean or many.
     type Value: Copy;
-    /// TRUE or FALSE.
+    /// Constant.
     fn always(&self, value: bool) -> Self::Value;
-    /// The opposite.
+    /// Negation.
     fn opposite(&self, a: Self::Value) -> Self::Value;
-    /// Both are so.
+    /// Conjunction.
     fn both(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
-    /// They differ.
+    /// Exclusive or.
     fn differ(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
-    /// What an operator makes of its operands.
+    /// Applies an operator to its operands.
     fn gate(&mut self, operator: Operator, operands: &[Self::Value]) -> Self::Value;
-    /// What a formula says where signals have these values.
+    /// Evaluates a formula with these values of signals.
     fn formula(&mut self, formula: &Formula, signals: &[Self::Value]) -> Self::Value;
 
-    /// One is so at least.
+    /// Disjunction.
     fn either(&mut self, a: Self::Value, b: Self::Value) -> Self::Value {
         let neither = self.both(self.opposite(a), self.opposite(b));
         self.opposite(neither)
     }
 }
 
-/// 64 valuations at once, one per bit.
+/// Bit-parallel evaluation of 64 valuations, one per bit.
 pub struct Words;
 
 impl Logic for Words {
@@ -86,7 +86,7 @@ impl Logic for Solver {
     }
 }
 
-/// For each operand, where the gate changes if this operand does and the others stay (the Boolean difference).
+/// For each operand, the Boolean difference of the gate by it: where the gate changes with this operand alone.
 pub fn deciding<L: Logic>(logic: &mut L, operator: Operator, operands: &[L::Value]) -> Vec<L::Value> {
     match operator {
         Operator::And => all_others(logic, operands),
@@ -95,7 +95,7 @@ pub fn deciding<L: Logic>(logic: &mut L, operator: Operator, operands: &[L::Valu
             all_others(logic, &not)
         }
         Operator::Implies => {
-            // The first or-ed negated with the others.
+            // An implication is a disjunction with its first operand negated.
             let not = operands.iter().enumerate();
             let not: Vec<L::Value> =
                 not.map(|(at, operand)| if at == 0 { *operand } else { logic.opposite(*operand) }).collect();
@@ -116,7 +116,7 @@ pub fn deciding<L: Logic>(logic: &mut L, operator: Operator, operands: &[L::Valu
     }
 }
 
-/// For each value, whether all others are so: from the left and from the right.
+/// For each value, the conjunction of all others (prefix and suffix products).
 fn all_others<L: Logic>(logic: &mut L, values: &[L::Value]) -> Vec<L::Value> {
     let mut others = Vec::with_capacity(values.len());
     let mut left = logic.always(true);
@@ -132,7 +132,7 @@ fn all_others<L: Logic>(logic: &mut L, values: &[L::Value]) -> Vec<L::Value> {
     others
 }
 
-/// For each value, whether one of the others at least is so, and whether two are.
+/// For each value, whether at least one and whether at least two of the others are true.
 fn counted_others<L: Logic>(logic: &mut L, values: &[L::Value]) -> Vec<(L::Value, L::Value)> {
     let none = (logic.always(false), logic.always(false));
     let mut others = Vec::with_capacity(values.len());
@@ -150,7 +150,7 @@ fn counted_others<L: Logic>(logic: &mut L, values: &[L::Value]) -> Vec<(L::Value
     others
 }
 
-/// Whether one at least and whether two are so, of two lots together.
+/// Sum of two counts, each given as "at least one" and "at least two".
 fn sum<L: Logic>(logic: &mut L, a: (L::Value, L::Value), b: (L::Value, L::Value)) -> (L::Value, L::Value) {
     let across = logic.both(a.0, b.0);
     let within = logic.either(a.1, b.1);

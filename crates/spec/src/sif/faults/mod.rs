@@ -1,9 +1,9 @@
-//! Single faults of a function's equations: what a set of tests is measured by.
+//! Single faults of a function's equations (mutants), by which a set of tests is measured.
 //!
-//! A fault changes one equation of the function, an output's or an auxiliary value's, in one place; it is seen where an output
-//! of the function is then different. A *literal* is a name or its negation, as it stands; a *term* is any other part of a
-//! formula. Names are those of the function's interface, its outputs and auxiliary values, as far as they are computed from the
-//! inputs that its outputs depend on; none is put where the equation would then need itself.
+//! A fault changes one equation of the function, an output's or an auxiliary value's, in one place; it is detected
+//! where an output of the function differs. A *literal* is an occurrence of a name or its negation; a *term* is any
+//! other subformula. Names are those of the function's interface, its outputs and auxiliary values, as far as they are
+//! computed from the inputs its outputs depend on; none is inserted where that would make a definition cyclic.
 //!
 //! | class | what is changed | in the literature |
 //! |---|---|---|
@@ -17,10 +17,11 @@
 //! | literal reference | another name or its negation stands in the place of a literal | LRF |
 //! | stuck at FALSE, stuck at TRUE | a literal, a term or the whole is always this | SA0, SA1 |
 //!
-//! After Kuhn, "Fault classes and error detection capability of specification-based testing" (1999), and Lau and Yu, "An extended
-//! fault class hierarchy for specification-based testing" (2005), who define these for disjunctive normal forms: here they are
-//! about formulas as they are written, and inserted literals about each gate. What would be written the same is one fault of its
-//! class. A fault is *equivalent* if no valuation that can be shows it; this is found by trying all, or by satisfiability.
+//! After Kuhn, "Fault classes and error detection capability of specification-based testing" (1999), and Lau and Yu,
+//! "An extended fault class hierarchy for specification-based testing" (2005), who define these for disjunctive normal
+//! forms: here they apply to formulas as they are written, and literals are inserted at each gate. Faults of a class
+//! with the same resulting text count once. A fault is *equivalent* if no allowed valuation shows it; this is decided
+//! by trying all, or by satisfiability.
 
 mod changes;
 mod class;

@@ -1,4 +1,4 @@
-//! What the faults of a function are about: its equations as nodes, the names in reach, and who sees what.
+//! Fault model of a function: its equations as nodes, the names in scope, and observability.
 
 use fixedbitset::FixedBitSet;
 
@@ -7,36 +7,36 @@ use super::super::formula::{Formula, SignalId};
 use super::super::specification::Specification;
 use super::nodes::{Node, grow};
 
-/// A function, ready for faults.
+/// Fault model of a function.
 pub struct Model<'s> {
-    /// The specification.
+    /// Specification.
     pub specification: &'s Specification,
-    /// The position of the function.
+    /// Position of the function.
     pub function: usize,
-    /// What matters to its outputs, and to names that faults may bring in.
+    /// Cone of influence of its outputs and of the names that faults may introduce.
     pub cone: Cone<'s>,
-    /// The names that faults may bring in.
+    /// Names that faults may introduce.
     pub names: Vec<SignalId>,
-    /// The equations that its outputs are computed from and that are its own.
+    /// Own equations that its outputs are computed from.
     pub equations: Vec<Equation>,
-    /// The parts of all these, operands first.
+    /// Nodes of all these equations, operands first.
     pub nodes: Vec<Node>,
 }
 
-/// An equation of a function.
+/// Equation of a function.
 pub struct Equation {
-    /// What it defines.
+    /// Signal defined.
     pub signal: SignalId,
-    /// The node that is all of it.
+    /// Root node.
     pub root: usize,
-    /// Whether its signal is an output of the function.
+    /// Whether the signal is an output of the function.
     pub is_output: bool,
-    /// What is computed from its signal, in the order of definitions.
+    /// Definitions that depend on the signal, in the order of definitions.
     pub users: Vec<SignalId>,
 }
 
 impl<'s> Model<'s> {
-    /// The model of a function.
+    /// Builds the model of a function.
     #[must_use]
     pub fn new(specification: &'s Specification, function: usize) -> Self {
         let of = &specification.functions[function];
@@ -75,20 +75,20 @@ impl<'s> Model<'s> {
         Self { specification, function, cone, names, equations, nodes }
     }
 
-    /// The outputs of the function.
+    /// Outputs of the function.
     #[must_use]
     pub fn outputs(&self) -> &'s [SignalId] {
         &self.specification.functions[self.function].outputs
     }
 
-    /// The names that may stand in an equation.
+    /// Names that a fault may introduce into an equation without making it cyclic.
     pub fn names_for(&self, equation: usize) -> impl Iterator<Item = SignalId> {
         let equation = &self.equations[equation];
         self.names.iter().copied().filter(move |name| *name != equation.signal && !equation.users.contains(name))
     }
 }
 
-/// The definitions of a cone that need a signal, in their order.
+/// Definitions of a cone that depend on a signal, in order.
 fn users(cone: &Cone<'_>, signal: SignalId) -> Vec<SignalId> {
     let mut found = cone.specification.valuation([signal]);
     let mut users = Vec::new();

@@ -1,32 +1,32 @@
-//! Equations as nodes in a row, in which a fault has a place.
+//! Nodes of equations, the places of faults.
 
 use super::super::formula::{Formula, Operator, SignalId};
 
-/// A part of an equation. Negations are no parts of their own: they belong to what is negated.
+/// Subformula of an equation. Negations are not nodes: they belong to their operand.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// The equation: its position among those of the model.
+    /// Position of its equation in the model.
     pub equation: usize,
-    /// What it is an operand of.
+    /// Parent node.
     pub parent: Option<usize>,
-    /// Whether the opposite counts.
+    /// Whether the node is negated.
     pub is_negated: bool,
-    /// What it is without that.
+    /// Content without that negation.
     pub what: What,
 }
 
-/// What a node is.
+/// Content of a node.
 #[derive(Clone, Debug)]
 pub enum What {
-    /// TRUE or FALSE.
+    /// Constant.
     Constant(bool),
-    /// A name.
+    /// Name.
     Literal(SignalId),
-    /// An operator with nodes as operands.
+    /// Operator with nodes as operands.
     Gate(Operator, Vec<usize>),
 }
 
-/// Adds the nodes of a formula, operands before what they are operands of. Gives the last, which is the whole.
+/// Adds the nodes of a formula in postorder; returns the root.
 pub fn grow(nodes: &mut Vec<Node>, equation: usize, formula: &Formula) -> usize {
     let (mut is_negated, mut formula) = (false, formula);
     while let Formula::Not(inner) = formula {
@@ -48,7 +48,7 @@ pub fn grow(nodes: &mut Vec<Node>, equation: usize, formula: &Formula) -> usize 
     this
 }
 
-/// The formula that a node was made of.
+/// Rebuilds the formula of a node.
 pub fn formula(nodes: &[Node], node: usize) -> Formula {
     let plain = match &nodes[node].what {
         What::Constant(value) => Formula::Constant(*value),

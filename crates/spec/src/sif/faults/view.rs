@@ -1,9 +1,9 @@
-//! Where faults are seen, on 64 valuations at once or in a solver.
+//! Detection of faults by Boolean differences, on 64 valuations at once or in a solver.
 //!
-//! Formulas are trees, so an equation depends on each node as on a single value, and the *Boolean difference* of the equation by
-//! the node is the product of the differences on the way up (Sellers, Hsiao and Bearnson, "Analyzing errors with the Boolean
-//! difference", 1968). A fault is seen where it changes its node, the node changes the equation, and the equation an output: no
-//! mutant is ever built.
+//! Formulas are trees, so an equation depends on each node as on a single value, and the *Boolean difference* of the
+//! equation by the node is the product of the differences along the path to the root (Sellers, Hsiao and Bearnson,
+//! "Analyzing errors with the Boolean difference", 1968). A fault is detected where it changes its node, the node
+//! changes the equation, and the equation an output: no mutant is ever built.
 
 use fixedbitset::FixedBitSet;
 
@@ -14,20 +14,20 @@ use super::logic::{Logic, Words, deciding};
 use super::model::Model;
 use super::nodes::What;
 
-/// What a model's signals and nodes are on some valuations.
+/// Values of a model's signals and nodes under some valuations.
 pub struct View<V> {
-    /// What each signal of the specification has; those outside the cone mean nothing.
+    /// Value of each signal of the specification; meaningless outside the cone.
     pub signals: Vec<V>,
-    /// What each node is.
+    /// Value of each node.
     pub values: Vec<V>,
-    /// Where the node decides what it is an operand of.
+    /// Boolean difference of the parent by each node.
     deciding: Vec<V>,
-    /// Where an output of the function changes if the node does.
+    /// Observability: where an output of the function changes with the node.
     pub observed: Vec<V>,
 }
 
 impl View<u64> {
-    /// What up to 64 valuations make of a model: the first is bit 0.
+    /// Evaluates a model on up to 64 valuations; the first is bit 0.
     pub fn of(model: &Model<'_>, valuations: &[FixedBitSet]) -> Self {
         let mut signals = vec![0; model.specification.signals.len()];
         for input in model.cone.all_inputs() {
@@ -43,12 +43,12 @@ impl View<u64> {
         Self::with(&mut Words, model, signals)
     }
 
-    /// Where a fault changes its own node.
+    /// Valuations in which a fault changes its own node.
     pub fn changes(&self, model: &Model<'_>, fault: &Fault) -> u64 {
         self.change(&mut Words, model, fault)
     }
 
-    /// Where a fault is seen at an output.
+    /// Valuations in which a fault is detected at an output (the mutant is killed).
     pub fn kills(&self, model: &Model<'_>, fault: &Fault) -> u64 {
         match self.observed[fault.node] {
             0 => 0,
@@ -58,12 +58,12 @@ impl View<u64> {
 }
 
 impl View<Literal> {
-    /// What a solver knows of a model, whose signals are these literals.
+    /// Encodes the nodes of a model whose signals are these literals.
     pub fn in_solver(solver: &mut Solver, model: &Model<'_>, signals: Vec<Literal>) -> Self {
         Self::with(solver, model, signals)
     }
 
-    /// The condition on which a fault is seen at an output.
+    /// Literal that is true when a fault is detected at an output.
     pub fn kills(&self, solver: &mut Solver, model: &Model<'_>, fault: &Fault) -> Literal {
         let changes = self.change(solver, model, fault);
         solver.and([changes, self.observed[fault.node]])
@@ -104,7 +104,7 @@ impl<V: Copy> View<V> {
         view
     }
 
-    /// Where an output of the function changes if an equation's signal does.
+    /// Where an output of the function changes with an equation's signal.
     fn seen<L: Logic<Value = V>>(&self, logic: &mut L, model: &Model<'_>, equation: usize) -> V {
         let equation = &model.equations[equation];
         if equation.is_output {
@@ -129,7 +129,7 @@ impl<V: Copy> View<V> {
         nodes.iter().map(|node| self.values[*node]).collect()
     }
 
-    /// Where a fault changes its own node. Negating the node or not makes no difference to that.
+    /// Where a fault changes its own node. A negation of the node does not matter here.
     fn change<L: Logic<Value = V>>(&self, logic: &mut L, model: &Model<'_>, fault: &Fault) -> V {
         let node = &model.nodes[fault.node];
         let value = self.values[fault.node];
@@ -166,7 +166,7 @@ impl<V: Copy> View<V> {
         }
     }
 
-    /// Where a gate changes if an operand is missing.
+    /// Where a gate changes when an operand is omitted.
     fn omission<L: Logic<Value = V>>(&self, logic: &mut L, gate: &What, operand: usize, plain: V) -> V {
         let others = self.deciding[operand];
         match gate {

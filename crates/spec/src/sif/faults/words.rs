@@ -1,14 +1,14 @@
-//! Faults in words.
+//! Descriptions of faults in words.
 
 use super::super::formula::Formula;
 use super::changes::{Change, Fault};
 use super::model::Model;
 use super::nodes::formula;
 
-/// Longest text of a formula that is shown as a whole, in characters.
+/// Longest formula shown whole, in characters.
 const LONG: usize = 72;
 
-/// The same for what stands beside that.
+/// Longest neighbour shown whole, in characters.
 const BESIDE: usize = 30;
 
 /// A fault in words: "`!ACC_Tst` is negated in `F1`: `… & !ACC_Tst & …`".
@@ -50,7 +50,7 @@ pub fn named(model: &Model<'_>, node: usize) -> String {
     format!("`{}`{}", short(&this, LONG), place(model, node))
 }
 
-/// Where a node is: what it is an operand of, cut down to its neighbours.
+/// Place of a node: its parent, cut down to the neighbouring operands.
 fn place(model: &Model<'_>, node: usize) -> String {
     let at = &model.nodes[node];
     let specification = model.specification;
@@ -76,7 +76,7 @@ fn place(model: &Model<'_>, node: usize) -> String {
     format!(" in `{}`{several}", pieces.join(&format!(" {} ", operator.symbol())))
 }
 
-/// Which equation a node is part of, if there are several.
+/// Name of a node's equation, if the model has several.
 fn equation(model: &Model<'_>, node: usize) -> String {
     let equation = &model.equations[model.nodes[node].equation];
     if model.equations.len() > 1 {
@@ -93,7 +93,7 @@ fn plain(formula: Formula) -> Formula {
     }
 }
 
-/// A text with only its first and last words if it is long.
+/// Shortens a long text to its first and last words.
 fn short(text: &str, long: usize) -> String {
     let length = |text: &str| text.chars().count();
     if length(text) <= long {

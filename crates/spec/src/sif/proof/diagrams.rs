@@ -1,4 +1,4 @@
-//! Decision diagrams as a second opinion on what holds from every state.
+//! Proof check by decision diagrams: an independent confirmation of what holds from every state.
 
 use fixedbitset::FixedBitSet;
 
@@ -6,13 +6,13 @@ use super::subject::{Claim, Form, Subject};
 use crate::sif::{Diagram, Diagrams, Kind, SignalId};
 use petril_lang::circuit::{Gate, ScanGates, Wire};
 
-/// Nodes of a diagram, at most.
+/// Upper bound on nodes of a diagram.
 const MAX_NODES: usize = 1 << 14;
 
-/// Nodes of all diagrams that are made for one claim, at most.
+/// Upper bound on nodes of all diagrams built for one claim.
 const MAX_WORK: usize = 1 << 21;
 
-/// Whether a claim is never wrong, whatever scans begin with. Nothing if diagrams get too large.
+/// Whether a claim holds after a scan from any state, reachable or not; `None` if diagrams get too large.
 pub(super) fn holds(subject: &Subject<'_>, gates: &ScanGates, claim: &Claim) -> Option<bool> {
     let mut opinion = Opinion::new(subject, gates, claim)?;
     let is = opinion.wire(gates.end[claim.variable.0][0])?;
@@ -40,18 +40,19 @@ pub(super) fn holds(subject: &Subject<'_>, gates: &ScanGates, claim: &Claim) -> 
     Some(bad.is_empty())
 }
 
-/// The diagrams of what a specification says.
+/// Diagrams of the specification's signals.
 struct Signals {
-    /// Of those that matter.
+    /// Value of each signal needed.
     values: Vec<Option<Diagram>>,
-    /// Of the claim's, without delay.
+    /// Value of the claim's signal without delay.
     wanted: Diagram,
 }
 
 struct Opinion<'a> {
     subject: &'a Subject<'a>,
     gates: &'a ScanGates,
-    /// Over the inputs of the network, by their numbers; behind these, over what else is free, by signal.
+    /// Manager of the diagrams, over the inputs of the network by number, followed by the other free variables by
+    /// signal.
     diagrams: Diagrams,
     nodes: Vec<Option<Diagram>>,
     work: usize,
@@ -59,7 +60,7 @@ struct Opinion<'a> {
 
 impl<'a> Opinion<'a> {
     fn new(subject: &'a Subject<'a>, gates: &'a ScanGates, claim: &Claim) -> Option<Self> {
-        // Inputs in the order in which the program and the specification come to them.
+        // Variable order: as program and specification reach their inputs.
         let mut order = Vec::new();
         let mut seen = FixedBitSet::with_capacity(gates.first_gate() + gates.gates.len());
         let mut left: Vec<usize> = gates.errors.iter().map(|(wire, ..)| wire.node()).collect();
@@ -91,7 +92,7 @@ impl<'a> Opinion<'a> {
         Some(Self { subject, gates, diagrams, nodes: vec![None; seen.len()], work: 0 })
     }
 
-    /// What else is free of a signal: what is remembered of it, or what it is outside of the program.
+    /// Free variable of a signal: its latch, or its value outside the program.
     fn free(&self, id: SignalId) -> Option<Diagram> {
         self.diagrams.signal(SignalId(self.gates.inputs.len() + id.0))
     }
@@ -189,7 +190,7 @@ mod tests {
     use petril_lang::semantics;
     use petril_lang::syntax;
 
-    /// The opinion on each claim about a program with inputs a, b, c and outputs y, z.
+    /// Answers for all claims about a program with inputs a, b, c and outputs y, z.
     fn opinions(text: &str, body: &str, tolerated: Tolerated) -> Vec<Option<bool>> {
         let program = format!(
             "PROGRAM p VAR_INPUT a, b, c : BOOL; END_VAR VAR_OUTPUT y, z : BOOL; END_VAR VAR n : INT; END_VAR\n{body}\nEND_PROGRAM"
@@ -217,7 +218,7 @@ mod tests {
         let (and, or) = ("LD a\nAND b\nST y", "LD a\nOR b\nST y");
         assert_eq!(opinion(&function("", "y = a & b;"), and), [Some(true)]);
         assert_eq!(opinion(&function("", "y = a & b;"), or), [Some(false)]);
-        // OR is XOR where at most one is TRUE, whatever else is restricted before or behind.
+        // OR is XOR where at most one is TRUE, whatever else is restricted before or after.
         for (restricted, expected) in [
             ("", false),
             ("restriction R: at most one of a, b;", true),
@@ -232,10 +233,10 @@ mod tests {
                 "{restricted}"
             );
         }
-        // On without reason, and off too late.
+        // TRUE without reason, and FALSE too late.
         assert_eq!(opinion(&function(" delayed T#1s", "y = a & b;"), "LD a\nAND b\nAND c\nST y"), [Some(true)]);
         assert_eq!(opinion(&function(" delayed T#1s", "y = a & b;"), "LD a\nST y"), [Some(false)]);
-        // Some state that is never reached has the latch on and the output off.
+        // An unreachable state has the latch set and the output FALSE.
         let latch = "LD c\nR y\nLD a\nAND b\nS y";
         assert_eq!(opinion(&function(" latched until c", "y = a & b;"), latch), [Some(false)]);
     }
@@ -248,7 +249,7 @@ mod tests {
         let zero = Tolerated { overflow: false, division_by_zero: true };
         assert_eq!(opinion(&text, dividing), [Some(true)]);
         assert_eq!(opinions(&text, dividing, zero), [Some(false)]);
-        // It is wrong in scans without an error, too: those with c.
+        // The program is wrong in scans without an error, too: those with c.
         let wrong = "LD c\nBOOL_TO_INT\nST n\nLD 6\nDIV n\nST n\nLD a\nOR b\nST y";
         assert_eq!(opinion(&text, wrong), [Some(false)]);
     }
@@ -266,7 +267,7 @@ mod tests {
         assert_eq!(opinion(&text(""), late), [Some(false), Some(true)]);
         assert_eq!(opinion(&text(" delayed T#1s"), late), [Some(true), Some(false)]);
         assert_eq!(opinion(&text(" delayed T#1s"), "LD a\nAND c\nST y\nAND b\nST z"), [Some(true), Some(true)]);
-        // What the program does not have is as the restrictions need it.
+        // Inputs that the program does not have take any values the restrictions allow.
         let outside = "restriction R: always a -> elsewhere; restriction S: always elsewhere -> b; input elsewhere;";
         let text = outside.to_owned() + &function("", "y = a & b;");
         assert_eq!(opinion(&text, "LD a\nST y"), [Some(true)]);

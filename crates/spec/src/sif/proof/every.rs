@@ -1,4 +1,4 @@
-//! Every scan there is, by the interpreter: for programs without gates, and to confirm what was found with them where inputs are few.
+//! Exhaustive exploration by the interpreter: for programs without gates, and to confirm proofs where inputs are few.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -7,27 +7,27 @@ use super::subject::Subject;
 use crate::sif::Stop;
 use petril_lang::semantics::Role;
 
-/// Bits of inputs, at most.
+/// Upper bound on the bits of all inputs.
 const MAX_BITS: u32 = 16;
 
-/// What all scans show that keep some restrictions.
+/// Result of exploring all scans that satisfy some restrictions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seen {
-    /// For each claim that was looked at and is wrong in some scan, a shortest run there.
+    /// For each claim checked that is wrong in some scan, a shortest run to it.
     pub(super) wrong: BTreeMap<usize, Vec<Given>>,
-    /// For each way in which scans fail, a shortest run there.
+    /// For each kind of failure, a shortest run to it.
     pub(super) failures: BTreeMap<Failure, Vec<Given>>,
-    /// States, power-on included.
+    /// Number of states, power-on included.
     pub(super) states: u64,
-    /// Scans computed.
+    /// Number of scans computed.
     pub(super) scans: u64,
-    /// Of these, scans that keep the restrictions and do not fail.
+    /// Number of these scans that satisfy the restrictions and do not fail.
     pub(super) ended: u64,
-    /// Whether every scan from every state was computed; else why not.
+    /// Reason why not every scan from every state was computed, if so.
     pub(super) stopped: Option<String>,
 }
 
-/// What scans can read, one after another. Nothing if that is too much.
+/// Input valuations of a scan; `None` if they are too many.
 fn readings(subject: &Subject<'_>) -> Option<Vec<Given>> {
     let program = subject.program;
     let inputs: Vec<_> = program.with_role(Role::Input).collect();
@@ -55,8 +55,8 @@ fn readings(subject: &Subject<'_>) -> Option<Vec<Given>> {
     (subject.outside.len() <= MAX_BITS as usize).then(|| (0..count).map(reading).collect())
 }
 
-/// Explores all states by scans that keep these restrictions, up to so many scans, and looks at these claims. Nothing if inputs
-/// are too many.
+/// Explores all states by scans that satisfy the restrictions, up to `limit` scans, and checks the claims. `None` if
+/// inputs are too many.
 pub(super) fn every(
     subject: &Subject<'_>,
     restrictions: &[usize],
@@ -73,7 +73,7 @@ pub(super) fn every(
     let mut seen = Seen::default();
     let mut run = Run::new(subject);
     let mut states = vec![run.position()];
-    // For each state, the state before it and what the scan between read.
+    // For each state, its predecessor and the inputs of the scan between.
     let mut ways: Vec<Option<(usize, usize)>> = vec![None];
     let mut known = HashSet::from([key(&states[0])]);
     let way = |ways: &[Option<(usize, usize)>], mut state: usize, reading: usize| -> Vec<Given> {

@@ -1,9 +1,9 @@
-//! Whether a program computes what is specified: each output, at the end of every scan, is its formula over the inputs of that
-//! scan, as long as scans keep the restrictions.
+//! Proofs that a program computes its specification: at the end of every scan, each output equals its formula over the
+//! inputs of that scan, provided that scans satisfy the restrictions.
 //!
-//! A scan as gates and the specification go to a solver (`search.rs`). What it finds wrong is replayed by the
-//! interpreter before it is shown; what it proves is confirmed in another way where that is possible. Programs without gates
-//! are explored by the interpreter, scan by scan.
+//! Gates of a scan and the specification go to a SAT solver (`search.rs`). Counterexamples are replayed by the
+//! interpreter before they are shown; proofs are confirmed independently where possible. Programs without gates are
+//! explored by the interpreter, scan by scan.
 
 mod diagrams;
 mod every;
@@ -27,44 +27,45 @@ use shown::Shown;
 pub use subject::{Claim, Form, Subject};
 use unrolled::Network;
 
-/// How a proof is looked for.
+/// Limits of a proof.
 #[derive(Clone)]
 pub struct Options {
-    /// Scans of a run from power-on, and of an induction, at most.
+    /// Upper bound on the scans of a run from power-on, and of an induction.
     pub scans: usize,
-    /// Conflicts of the solver for one question, at most.
+    /// Upper bound on conflicts of the solver per question.
     pub conflicts: u64,
-    /// Scans that the interpreter computes where nothing else decides, at most; a sixteenth of them to confirm proofs.
+    /// Upper bound on scans computed by the interpreter where nothing else decides; a sixteenth of it to confirm
+    /// proofs.
     pub tries: u64,
-    /// Whether the work is to end.
+    /// Whether to stop.
     pub stop: Stop,
 }
 
 impl Default for Options {
-    /// Sixteen scans, a million conflicts, a million tries, no end.
+    /// Sixteen scans, a million conflicts, 2²⁰ tries, never stopped.
     fn default() -> Self {
         Self { scans: 16, conflicts: 1_000_000, tries: 1 << 20, stop: std::sync::Arc::new(|| false) }
     }
 }
 
-/// What is known of a claim.
+/// Result for a claim.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is so in every scan of every run.
+    /// The claim holds in every scan of every run.
     Proved {
-        /// How.
+        /// Method of the proof.
         by: By,
-        /// How that was confirmed by something that shares nothing with the proof.
+        /// Independent confirmation, if any.
         confirmed: Option<Confirmed>,
     },
-    /// It is not so at the end of the last of these scans, as the interpreter shows.
+    /// The claim is violated at the end of the last of these scans, as the interpreter shows.
     Refuted(Vec<Scan>),
-    /// Nothing is known, for this reason.
+    /// Undecided, with the reason.
     Unknown(String),
 }
 
 impl Outcome {
-    /// The verdict alone.
+    /// Verdict without evidence.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self {
@@ -75,59 +76,59 @@ impl Outcome {
     }
 }
 
-/// How a claim was proved.
+/// Method of a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
-    /// For one scan, whatever it begins with, reachable or not.
+    /// Single scan from any state, reachable or not.
     AnyState,
-    /// By induction over so many scans.
+    /// Induction over this number of scans.
     Induction(usize),
-    /// The interpreter computed every scan from every state.
+    /// Exhaustive exploration by the interpreter.
     EveryScan,
 }
 
-/// How a proof was confirmed.
+/// Independent confirmation of a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmed {
-    /// The interpreter computed every scan from every state.
+    /// Exhaustive exploration by the interpreter.
     EveryScan {
-        /// States, power-on included.
+        /// Number of states, power-on included.
         states: u64,
-        /// Scans.
+        /// Number of scans.
         scans: u64,
     },
-    /// Decision diagrams of both are the same.
+    /// Equality of decision diagrams.
     Diagrams,
 }
 
-/// What is known of one output.
+/// Answer for one output.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// What is claimed.
+    /// Claim.
     pub claim: Claim,
-    /// What is known.
+    /// Result.
     pub outcome: Outcome,
 }
 
-/// What is known of all that was claimed.
+/// Results for all claims.
 #[derive(Clone, Debug)]
 pub struct Proof {
-    /// One for each output, in their order.
+    /// Answers, one for each output, in their order.
     pub answers: Vec<Answer>,
-    /// The ways in which scans fail, each with a shortest run; what the program does after them is not known.
+    /// Failures of scans, each with a shortest run; nothing is known of the program after them.
     pub failures: Vec<(Failure, Vec<Scan>)>,
-    /// The ways of which it is not known whether they occur, with the reason.
+    /// Failures not known to be unreachable, with the reason; `None` stands for any failure.
     pub unknown_failures: Vec<(Option<Failure>, String)>,
-    /// What all proofs assume.
+    /// Assumptions of all proofs.
     pub assumptions: Vec<String>,
-    /// What else is worth knowing.
+    /// Further remarks.
     pub remarks: Vec<String>,
-    /// Scans by chance that gates and interpreter computed alike.
+    /// Number of random scans on which gates and interpreter agreed.
     pub compared: usize,
 }
 
 impl Proof {
-    /// The verdict on everything.
+    /// Overall verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let answers = self.answers.iter().map(|answer| answer.outcome.verdict());
@@ -137,7 +138,7 @@ impl Proof {
     }
 }
 
-/// Proves or refutes what is claimed.
+/// Proves or refutes the claims.
 #[must_use]
 pub fn prove(subject: &Subject<'_>, options: &Options) -> Proof {
     let mut proof = Proof {
@@ -158,7 +159,7 @@ pub fn prove(subject: &Subject<'_>, options: &Options) -> Proof {
     proof
 }
 
-/// What the interpreter finds by trying everything, for each list of restrictions that some goals have.
+/// Results of exhaustive exploration, by list of restrictions.
 struct Interpreted(BTreeMap<Vec<usize>, Option<Seen>>);
 
 impl Interpreted {
@@ -175,7 +176,7 @@ impl Interpreted {
         Self(groups.into_iter().map(seen).collect())
     }
 
-    /// What scans that keep these restrictions show. Nothing if they were not tried.
+    /// Result for these restrictions; `None` if they were not tried.
     fn of(&self, restrictions: &[usize]) -> Option<&Seen> {
         self.0.get(restrictions).and_then(Option::as_ref)
     }
@@ -218,7 +219,7 @@ fn by_gates(subject: &Subject<'_>, gates: &ScanGates, options: &Options, proof: 
     }
 }
 
-/// What is known of a claim, after what the solver found was looked at by the interpreter.
+/// Result for a claim: the solver's finding, checked by the interpreter.
 fn claimed(
     subject: &Subject<'_>,
     gates: &ScanGates,
@@ -253,7 +254,7 @@ fn claimed(
     }
 }
 
-/// The same of an error.
+/// Result for an error, as by [`claimed`].
 fn failing(subject: &Subject<'_>, failure: Failure, finding: Finding, seen: Option<&Seen>) -> Outcome {
     let complete = seen.filter(|seen| seen.stopped.is_none());
     let confirmed = complete.map(|seen| Confirmed::EveryScan { states: seen.states, scans: seen.scans });
@@ -272,7 +273,7 @@ fn failing(subject: &Subject<'_>, failure: Failure, finding: Finding, seen: Opti
     }
 }
 
-/// What the solver leaves open may be known from trying everything.
+/// Decides by exhaustive exploration what the solver leaves open.
 fn every_scan(complete: Option<&Seen>, reason: String) -> Outcome {
     match complete {
         Some(seen) if seen.ended > 0 => Outcome::Proved { by: By::EveryScan, confirmed: None },
@@ -280,7 +281,7 @@ fn every_scan(complete: Option<&Seen>, reason: String) -> Outcome {
     }
 }
 
-/// All that is known of a program without gates, for this reason.
+/// Decides all claims about a program without gates, which `reason` explains.
 fn by_interpreter(subject: &Subject<'_>, reason: &str, options: &Options, proof: &mut Proof) {
     let goals: Vec<Goal> = (0..subject.claims.len()).map(Goal::Claim).collect();
     let interpreted = Interpreted::new(subject, &goals, options.tries, options);

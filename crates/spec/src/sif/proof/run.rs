@@ -1,5 +1,5 @@
-//! A program and its specification side by side, scan by scan: the interpreter, and definitions evaluated as they are
-//! written. It shares nothing with the gates and the solver, and what they find is shown only if it is so here.
+//! Reference run of a proof: the interpreter beside the specification's definitions, evaluated as written. Shares no
+//! code with gates and solver; their findings are shown only if confirmed here.
 
 use super::subject::Subject;
 use crate::sif::{Kind, SignalId};
@@ -7,72 +7,72 @@ use petril_lang::flat::Hazard;
 use petril_lang::interpret::{Fault, Machine};
 use petril_lang::semantics::VarId;
 
-/// What a scan reads.
+/// Inputs of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Given {
-    /// The free inputs of the program.
+    /// Free inputs of the program.
     pub inputs: Vec<(VarId, u64)>,
     /// Inputs of the specification that the program does not have.
     pub outside: Vec<(SignalId, bool)>,
 }
 
-/// A scan, and what was specified of it.
+/// Scan with its specified values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scan {
-    /// What it read.
+    /// Inputs read.
     pub given: Given,
-    /// What each signal is at its end, by the specification; what is delayed is what the program makes of it.
+    /// Value of each signal at the end, by the specification; of a delayed output, by the program.
     pub signals: Vec<bool>,
-    /// What each definition is without delay.
+    /// Value of each definition without delay.
     pub wanted: Vec<bool>,
-    /// The values of all variables at its end. They mean nothing if it failed.
+    /// Values of all variables at the end; meaningless if the scan failed.
     pub memory: Vec<u64>,
-    /// Why it failed, if it did.
+    /// Failure of the scan, if any.
     pub failure: Option<Failure>,
-    /// The positions of the restrictions that it breaks.
+    /// Positions of the restrictions violated.
     pub broken: Vec<usize>,
 }
 
-/// Why nothing is known of the end of a scan.
+/// Failure of a scan: its end is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Failure {
-    /// It meets an error in this line (from 0).
+    /// Error in this line (from 0).
     Hazard(usize, Hazard),
-    /// It never ends.
+    /// The scan never ends.
     Endless,
-    /// It takes so long that nobody waited for its end.
+    /// The scan exceeds the limit on instructions.
     TooLong,
 }
 
-/// A run under way.
+/// Run under way.
 #[derive(Clone)]
 pub(super) struct Run<'s> {
     subject: &'s Subject<'s>,
     machine: Machine<'s>,
-    /// What is remembered of each signal.
+    /// Latch of each signal.
     latches: Vec<bool>,
 }
 
 impl<'s> Run<'s> {
-    /// The run that has not begun: nothing is latched.
+    /// Starts at power-on, with nothing latched.
     pub(super) fn new(subject: &'s Subject<'s>) -> Self {
         let latches = vec![false; subject.specification.signals.len()];
         Self { subject, machine: Machine::new(subject.program), latches }
     }
 
-    /// What it is at: the values of all variables, and what is latched.
+    /// Current position: values of all variables, and latches.
     pub(super) fn position(&self) -> (Vec<u64>, Vec<bool>) {
         let memory = (0..self.subject.program.variables.len()).map(|id| self.machine.value(VarId(id))).collect();
         (memory, self.latches.clone())
     }
 
-    /// Goes to where a run was.
+    /// Restores a position.
     pub(super) fn restore(&mut self, (memory, latches): &(Vec<u64>, Vec<bool>)) {
         self.machine.restore(memory);
         self.latches.clone_from(latches);
     }
 
-    /// One scan more.
+    /// Executes one scan.
     pub(super) fn scan(&mut self, given: &Given) -> Scan {
         let subject = self.subject;
         given.inputs.iter().for_each(|&(input, value)| self.machine.set(input, value));
@@ -103,7 +103,7 @@ impl<'s> Run<'s> {
     }
 }
 
-/// The run that reads this.
+/// Executes a run with these inputs.
 pub(super) fn run(subject: &Subject<'_>, given: &[Given]) -> Vec<Scan> {
     let mut run = Run::new(subject);
     given.iter().map(|given| run.scan(given)).collect()

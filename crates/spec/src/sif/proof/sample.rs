@@ -1,4 +1,4 @@
-//! Gates and interpreter side by side on scans by chance.
+//! Differential test of gates against the interpreter on random scans.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -8,13 +8,13 @@ use petril_lang::circuit::ScanGates;
 use petril_lang::interpret::Machine;
 use petril_lang::semantics::{Role, VarId};
 
-/// Runs, computed side by side.
+/// Number of runs computed in parallel.
 const RUNS: usize = 64;
 
-/// Scans of each run.
+/// Number of scans of each run.
 const SCANS: usize = 16;
 
-/// How many scans were the same both ways; what differs, if anything does.
+/// Returns the number of scans compared, or the first difference.
 pub(super) fn compare(subject: &Subject<'_>, gates: &ScanGates) -> Result<usize, String> {
     let program = subject.program;
     let mut chance = ChaCha8Rng::seed_from_u64(0);

@@ -1,9 +1,10 @@
-//! Proofs and counterexamples by satisfiability.
+//! Proofs and counterexamples by SAT: bounded model checking and strengthened k-induction.
 //!
-//! First from any state of what is carried: what one scan cannot do from there, no scan does. Then, in turns, runs of so many scans
-//! from power-on, and induction over as many (Sheeran, Singh and Stålmarck, "Checking safety properties using induction and a
-//! SAT-solver", 2000): what is never wrong in the first k scans, and not after k scans that were right, is never wrong. Only
-//! states that differ have to be looked at, which makes the method complete. All goals are assumed at once of the scans before.
+//! First, one scan from any state of the carried bits: what is excluded there is excluded everywhere. Then, in turns,
+//! runs of k scans from power-on, and k-induction (Sheeran, Singh and Stålmarck, "Checking safety properties using
+//! induction and a SAT-solver", 2000): a property that holds in the first k scans, and after any k scans in which it
+//! holds, always holds. States are required to differ pairwise, which makes the method complete. The induction
+//! hypothesis is strengthened by all goals not refuted yet.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,17 +14,17 @@ use super::subject::Subject;
 use super::unrolled::{Frame, Network};
 use crate::sif::{Answer, Literal, Solver, Stop};
 
-/// Something that is never to be so at the end of a scan.
+/// Bad-state property: something that must never be true at the end of a scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Goal {
-    /// The claim at this position is wrong.
+    /// The claim at this position is violated.
     Claim(usize),
-    /// The scan meets the error at this position among those of the gates.
+    /// The scan meets the error at this position in the list of the gates.
     Error(usize),
 }
 
 impl Goal {
-    /// The positions of the restrictions that its scans keep.
+    /// Positions of the restrictions that its scans satisfy.
     pub(super) fn restrictions<'s>(self, subject: &'s Subject<'_>) -> &'s [usize] {
         match self {
             Self::Claim(claim) => &subject.claims[claim].restrictions,
@@ -31,7 +32,7 @@ impl Goal {
         }
     }
 
-    /// The position of its claim.
+    /// Position of its claim.
     pub(super) fn claim(self) -> Option<usize> {
         match self {
             Self::Claim(claim) => Some(claim),
@@ -40,42 +41,42 @@ impl Goal {
     }
 }
 
-/// What is known of a goal.
+/// Result for a goal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Finding {
-    /// It is not so from any state.
+    /// Excluded from any state, reachable or not.
     AnyState,
-    /// It is not so, by induction over so many scans.
+    /// Excluded by induction over this number of scans.
     Induction(usize),
-    /// It is so in the last scan of a shortest run that reads this.
+    /// Reached in the last scan of a shortest run with these inputs.
     Run(Vec<Given>),
-    /// It is not known.
+    /// Undecided, with the reason.
     Open(String),
 }
 
-/// How far to go.
+/// Limits of the search.
 pub(super) struct Bounds {
-    /// Scans of a run, and of an induction.
+    /// Upper bound on the scans of a run, and of an induction.
     pub(super) scans: usize,
-    /// Conflicts of the solver for one question.
+    /// Upper bound on conflicts of the solver per question.
     pub(super) conflicts: u64,
-    /// Whether the work is to end.
+    /// Whether to stop.
     pub(super) stop: Stop,
 }
 
-/// The goals of a network.
+/// Goals of a network.
 pub(super) fn goals(network: &Network<'_>) -> Vec<Goal> {
     let claims = (0..network.subject.claims.len()).map(Goal::Claim);
     claims.chain((0..network.gates.errors.len()).map(Goal::Error)).collect()
 }
 
-/// Decides all goals, as far as the bounds allow.
+/// Decides all goals, as far as the limits allow.
 pub(super) fn search(network: &Network<'_>, bounds: &Bounds) -> Vec<Finding> {
     let goals = goals(network);
     let left = Arc::new(AtomicU64::new(0));
     let stop = {
         let (left, stop) = (left.clone(), bounds.stop.clone());
-        // The solver asks once for each conflict.
+        // The solver calls this once per conflict.
         let none_left =
             move || left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err();
         Arc::new(move || none_left() || stop()) as Stop
@@ -94,14 +95,14 @@ pub(super) fn search(network: &Network<'_>, bounds: &Bounds) -> Vec<Finding> {
     search.findings.into_iter().map(|finding| finding.unwrap_or_else(open)).collect()
 }
 
-/// A solver and the scans in it.
+/// A solver with an unrolling of scans.
 struct Side {
     solver: Solver,
     frames: Vec<Frame>,
 }
 
 impl Side {
-    /// One scan, from any state or from power-on.
+    /// Unrolls one scan, from any state or from power-on.
     fn new(stop: &Stop, from_any: bool, network: &Network<'_>) -> Self {
         let mut solver = Solver::new(stop);
         let start = if from_any { network.any_state(&mut solver) } else { network.power_on(&solver) };
@@ -109,7 +110,7 @@ impl Side {
         Self { solver, frames: vec![frame] }
     }
 
-    /// One scan more; those before it do not fail.
+    /// Unrolls one scan more; the scans before it are required not to fail.
     fn extend(&mut self, network: &Network<'_>, all_differ: bool) {
         let Some(last) = self.frames.last() else { return };
         self.solver.require([!last.fails]);
@@ -124,7 +125,7 @@ impl Side {
 struct Search<'n> {
     network: &'n Network<'n>,
     bounds: &'n Bounds,
-    /// Conflicts left for the question at hand.
+    /// Conflicts left for the current question.
     left: Arc<AtomicU64>,
     runs: Side,
     steps: Side,
@@ -180,19 +181,19 @@ impl Search<'_> {
         (0..self.goals.len()).filter(|&goal| self.findings[goal].is_none()).collect()
     }
 
-    /// The positions of the restrictions that a goal's scans keep.
+    /// Positions of the restrictions that a goal's scans satisfy.
     fn restrictions(&self, goal: usize) -> &[usize] {
         self.goals[goal].restrictions(self.network.subject)
     }
 
-    /// That scans keep a goal's restrictions.
+    /// Literals of a goal's restrictions in all frames.
     fn allowed(&self, goal: usize, frames: &[Frame]) -> Vec<Literal> {
         let used = &self.network.subject.restrictions;
         let at: Vec<usize> = self.restrictions(goal).iter().filter_map(|at| used.binary_search(at).ok()).collect();
         frames.iter().flat_map(|frame| at.iter().map(|&at| frame.allowed[at])).collect()
     }
 
-    /// Whether a first scan can keep a goal's restrictions; else why nothing is proved.
+    /// Checks that a first scan can satisfy a goal's restrictions; else the error says why nothing is proved.
     fn possible(&mut self, goal: usize) -> Result<(), String> {
         let mut assumed = self.allowed(goal, &self.runs.frames);
         if self.solve(false, &assumed) == Answer::Unsatisfiable {
@@ -213,7 +214,7 @@ impl Search<'_> {
         side.solver.solve(assumed)
     }
 
-    /// What makes the last of these scans bad.
+    /// Literals that make the last scan bad.
     fn bad(&self, goal: usize, frame: &Frame) -> Vec<Literal> {
         match self.goals[goal] {
             Goal::Claim(claim) => vec![frame.wrong[claim], !frame.fails],
@@ -221,7 +222,7 @@ impl Search<'_> {
         }
     }
 
-    /// Whether the last of the scans from any state can be bad, after scans in which the others were not.
+    /// Induction step: whether the last of the scans from any state can be bad after scans in which the others hold.
     fn ask_step(&mut self, goal: usize, others: &[usize]) -> Answer {
         let Some((last, before)) = self.steps.frames.split_last() else { return Answer::Stopped };
         let mut assumed = self.bad(goal, last);
@@ -230,7 +231,7 @@ impl Search<'_> {
         }
         assumed.extend(self.allowed(goal, &self.steps.frames));
         for &other in others {
-            // What is right where fewer restrictions are kept is right where more are.
+            // A claim that holds under fewer restrictions holds under more.
             let holds_here = self.restrictions(other).iter().all(|at| self.restrictions(goal).contains(at));
             if let (Goal::Claim(claim), true) = (self.goals[other], holds_here) {
                 assumed.extend(before.iter().map(|frame| !frame.wrong[claim]));
@@ -239,7 +240,7 @@ impl Search<'_> {
         self.solve(true, &assumed)
     }
 
-    /// Looks for runs of so many scans from power-on whose last is bad.
+    /// Bounded model checking: looks for runs of exactly `scans` scans from power-on whose last scan is bad.
     fn runs_of(&mut self, scans: usize) {
         for goal in self.undecided() {
             let frames = &self.runs.frames[..scans];
@@ -256,7 +257,8 @@ impl Search<'_> {
         }
     }
 
-    /// Proves what no scan makes wrong after so many in which everything that is still thought right was right.
+    /// Strengthened k-induction with k = `scans`: the hypothesis is that all goals still believed excluded are excluded
+    /// in the first k scans. Goals that fail are removed until a fixpoint is reached.
     fn induction(&mut self, scans: usize) {
         let right =
             |finding: &Option<Finding>| matches!(finding, None | Some(Finding::AnyState | Finding::Induction(_)));

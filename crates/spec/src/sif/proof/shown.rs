@@ -1,4 +1,4 @@
-//! What people are told: runs that were replayed, what is assumed, and what else is worth knowing.
+//! Reported results: replayed and simplified runs, assumptions, and remarks.
 
 use fixedbitset::FixedBitSet;
 
@@ -10,23 +10,23 @@ use petril_lang::circuit::NoGates;
 use petril_lang::flat::Hazard;
 use petril_lang::semantics::Role;
 
-/// The longest runs whose scans are simplified one by one.
+/// Longest run whose scans are simplified one by one.
 const MAX_SCANS: usize = 32;
 
-/// What a run shows in its last scan.
+/// Evidence in the last scan of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shown {
-    /// The claim at this position is wrong.
+    /// The claim at this position is violated.
     Wrong(usize),
     /// The scan fails.
     Failure(Failure),
 }
 
 impl Shown {
-    /// The run that reads this, by the interpreter, with as many inputs at rest as it takes.
+    /// Replays the run with these inputs by the interpreter, and sets as many inputs to rest as possible.
     ///
     /// # Errors
-    /// It does not show that.
+    /// The run does not show the evidence.
     pub(super) fn replayed(self, subject: &Subject<'_>, given: &[Given]) -> Result<Vec<Scan>, String> {
         let scans = run(subject, given);
         if !self.is_shown(subject, &scans) {
@@ -53,7 +53,7 @@ impl Shown {
         is_shown && scans.iter().all(keeps) && before.iter().all(|scan| scan.failure.is_none())
     }
 
-    /// The same with one input after another at rest in all scans, or in one, where that shows the same.
+    /// Simplifies a run: sets inputs to rest one by one, in all scans or in one, where the evidence persists.
     fn at_rest(self, subject: &Subject<'_>, mut given: Vec<Given>, mut scans: Vec<Scan>) -> Vec<Scan> {
         let inputs = given.first().map_or(0, |given| given.inputs.len() + given.outside.len());
         let mut rests = vec![0; inputs];
@@ -69,7 +69,7 @@ impl Shown {
         let first = inputs - subject.outside.len().min(inputs);
         rests.splice(first.., outside);
         let every = 0..given.len();
-        // Each is tried by a run as long as this one.
+        // Each attempt costs a run of the full length.
         let each = if scans.len() <= MAX_SCANS { every.clone() } else { 0..0 };
         let choices = std::iter::once(every).chain(each.map(|scan| scan..scan + 1));
         for (choice, input) in choices.flat_map(|choice| (0..inputs).map(move |input| (choice.clone(), input))) {
@@ -92,7 +92,7 @@ impl Shown {
     }
 }
 
-/// Under which assumptions the proofs are proofs.
+/// Assumptions of the proofs, in words.
 pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
     let (specification, program) = (subject.specification, subject.program);
     let mut assumptions = Vec::new();
@@ -146,7 +146,7 @@ pub(super) fn assumptions(subject: &Subject<'_>) -> Vec<String> {
     assumptions
 }
 
-/// What restrictions and definitions name.
+/// Signals that restrictions and definitions mention.
 fn named(subject: &Subject<'_>) -> FixedBitSet {
     let mut named = FixedBitSet::with_capacity(subject.specification.signals.len());
     let restrictions = subject.restrictions.iter().map(|&at| &subject.specification.restrictions[at].allowed);
@@ -158,7 +158,7 @@ fn named(subject: &Subject<'_>) -> FixedBitSet {
     named
 }
 
-/// The scopes that restrictions have, in their order.
+/// Scopes of the restrictions, in their order.
 fn scopes(subject: &Subject<'_>) -> Vec<Scope> {
     let mut scopes: Vec<Scope> = Vec::new();
     for &position in &subject.restrictions {
@@ -170,7 +170,7 @@ fn scopes(subject: &Subject<'_>) -> Vec<Scope> {
     scopes
 }
 
-/// What else is worth knowing.
+/// Further remarks.
 pub(super) fn remarks(subject: &Subject<'_>) -> Vec<String> {
     let (specification, program) = (subject.specification, subject.program);
     let claimed: Vec<_> = subject.claims.iter().map(|claim| claim.variable).collect();
@@ -192,14 +192,14 @@ pub(super) fn remarks(subject: &Subject<'_>) -> Vec<String> {
     remarks
 }
 
-/// Some names, and how many more there are.
+/// Some names, and the number of the others.
 fn few(names: &[&str]) -> String {
     let shown: Vec<String> = names.iter().take(8).map(|name| format!("`{name}`")).collect();
     let more = names.len().saturating_sub(8);
     shown.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
 
-/// Why a program has no gates.
+/// Reason why a program has no gates.
 pub(super) fn no_gates(subject: &Subject<'_>, no_gates: NoGates) -> String {
     let line = no_gates.line() + 1;
     let name = &subject.program.name;

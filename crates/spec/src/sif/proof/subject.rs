@@ -1,4 +1,4 @@
-//! What is claimed of a program, and what the claims are about: signals, and the variables they stand for.
+//! Claims about a program, and the signals they are about with their variables.
 
 use fixedbitset::FixedBitSet;
 
@@ -7,55 +7,57 @@ use petril_base::diagnostic::{Code, Diagnostic};
 use petril_lang::flat::{FlatProgram, Tolerated};
 use petril_lang::semantics::VarId;
 
-/// A specification, a program, and what is claimed of both.
+/// Specification and program with the claims that relate them.
 #[derive(Clone, Debug)]
 pub struct Subject<'a> {
-    /// What is to be computed.
+    /// Specification.
     pub specification: &'a Specification,
-    /// What computes it.
+    /// Program.
     pub program: &'a FlatProgram,
-    /// The hazards that are no errors.
+    /// Hazards that are not errors.
     pub tolerated: Tolerated,
-    /// The variable that each signal stands for, of those that matter.
+    /// Variable of each relevant signal.
     pub variables: Vec<Option<VarId>>,
-    /// What is claimed: one for each output.
+    /// Claims, one for each output.
     pub claims: Vec<Claim>,
-    /// The definitions that matter, each behind those it uses.
+    /// Relevant definitions, in topological order: each after those it uses.
     pub definitions: Vec<SignalId>,
-    /// Inputs that only restrictions speak of, and that the program does not have.
+    /// Inputs mentioned by restrictions only that the program does not have.
     pub outside: Vec<SignalId>,
-    /// The positions of the restrictions that matter to some claim.
+    /// Positions of the restrictions that are relevant to some claim.
     pub restrictions: Vec<usize>,
-    /// Of these, the ones that all scans keep, whatever function is meant.
+    /// Positions of those that apply to every function.
     pub everywhere: Vec<usize>,
 }
 
-/// What is claimed of an output, at the end of every scan.
+/// Claim about an output, at the end of every scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Claim {
-    /// The output.
+    /// Output.
     pub signal: SignalId,
-    /// The variable it stands for.
+    /// Variable of the output.
     pub variable: VarId,
-    /// How it has to go with what is specified.
+    /// Required relation to the specified value.
     pub form: Form,
-    /// The positions of the restrictions that all scans keep.
+    /// Positions of the restrictions that all scans satisfy.
     pub restrictions: Vec<usize>,
 }
 
-/// How an output has to go with what is specified.
+/// Required relation of an output to its specified value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// It is the formula, over the inputs of the same scan.
+    /// Equality with the formula, over the inputs of the same scan.
     Equal,
-    /// It is TRUE if the formula is, or if it was at the end of the scan before and what resets it is not.
+    /// Latch: TRUE if the formula is, or if it was TRUE at the end of the previous scan and the reset condition is
+    /// false.
     Latched,
-    /// It is TRUE only where the same without delay is. When it comes is not claimed.
+    /// Upper bound only, for a delayed output: TRUE only where the output without delay is. The delay itself is not
+    /// claimed.
     NotWithout,
 }
 
 impl Form {
-    /// Whether an output may be so where this is wanted.
+    /// Whether an output value satisfies the relation to the specified value.
     #[must_use]
     pub fn fits(self, is: bool, wanted: bool) -> bool {
         match self {
@@ -66,10 +68,10 @@ impl Form {
 }
 
 impl<'a> Subject<'a> {
-    /// What is claimed of a program by these functions, or by all if none are named.
+    /// Collects the claims of these functions about a program, or of all if none are named.
     ///
     /// # Errors
-    /// Signals that stand for nothing in the program, or for what they cannot.
+    /// Signals whose variable is missing or unsuitable.
     pub fn new(
         specification: &'a Specification,
         program: &'a FlatProgram,
@@ -112,7 +114,7 @@ impl<'a> Subject<'a> {
             if !has_variable {
                 continue;
             }
-            // What no formula of the functions needs may be the business of another program.
+            // An input that no formula of the functions needs may belong to another program.
             let may_miss = !computed.seen.contains(id.0) && signal.binding.is_none();
             if may_miss && matches!(signal.kind, Kind::Input { .. }) && program.find(&signal.name).is_none() {
                 outside.push(id);
@@ -155,7 +157,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Whether a signal is remembered from scan to scan.
+    /// Reset condition of a latched signal.
     #[must_use]
     pub fn latch(&self, signal: SignalId) -> Option<&'a Formula> {
         match &self.specification.signals[signal.0].kind {
@@ -164,13 +166,13 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Whether a signal comes later than its formula says, so that others see what the program makes of it.
+    /// Whether a signal is delayed, so that other definitions use the program's value of it.
     #[must_use]
     pub fn is_delayed(&self, signal: SignalId) -> bool {
         matches!(self.specification.signals[signal.0].kind, Kind::Defined { delayed: Some(_), .. })
     }
 
-    /// The inputs that a signal is computed from, also to be reset, in their order.
+    /// Inputs that a signal or its reset condition is computed from, in their order.
     #[must_use]
     pub fn inputs_of(&self, signal: SignalId) -> Vec<SignalId> {
         let mut inside = Inside::new(self.specification);
@@ -179,7 +181,7 @@ impl<'a> Subject<'a> {
         inputs.filter(|id| matches!(self.specification.signals[id.0].kind, Kind::Input { .. })).collect()
     }
 
-    /// The input signals that stand for variables of the program.
+    /// Input signals with their variables in the program.
     pub fn inputs(&self) -> impl Iterator<Item = (SignalId, VarId)> {
         let bound = self.variables.iter().enumerate();
         bound
@@ -188,7 +190,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Signals, with all they are computed from, resets too.
+/// Signals with everything they are computed from, reset conditions included.
 struct Inside<'a> {
     specification: &'a Specification,
     seen: FixedBitSet,
@@ -213,7 +215,7 @@ impl<'a> Inside<'a> {
     }
 }
 
-/// Those of the definitions that are needed, each behind those it uses, also to be reset; or one that is reset by way of itself.
+/// Needed definitions in topological order, reset conditions included; or a definition whose reset depends on itself.
 fn in_order(specification: &Specification, needed: &FixedBitSet) -> Result<Vec<SignalId>, SignalId> {
     let mut left: Vec<SignalId> = specification.order.iter().copied().filter(|id| needed.contains(id.0)).collect();
     let mut waiting = FixedBitSet::with_capacity(specification.signals.len());

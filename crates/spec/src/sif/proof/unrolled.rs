@@ -1,4 +1,4 @@
-//! Scans one after another in a solver: gates of the program and formulas of the specification, as literals.
+//! Unrolling of scans in a solver: gates of the program and formulas of the specification as literals.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,13 +8,13 @@ use crate::sif::{Kind, Literal, Solver};
 use petril_lang::circuit::{Gate, ScanGates, Wire};
 use petril_lang::semantics::Role;
 
-/// What has to be known of the gates of a scan.
+/// Cone of influence of the claims in the gates of a scan.
 pub(super) struct Network<'a> {
     pub(super) subject: &'a Subject<'a>,
     pub(super) gates: &'a ScanGates,
-    /// The nodes that the claims depend on.
+    /// Nodes that the claims depend on.
     needed: FixedBitSet,
-    /// The inputs of the network, by their numbers, that are carried from scan to scan and that the claims depend on.
+    /// Numbers of the network inputs that are carried from scan to scan and that the claims depend on.
     pub(super) carried: Vec<usize>,
 }
 
@@ -24,7 +24,7 @@ impl<'a> Network<'a> {
         let mut needed = FixedBitSet::with_capacity(gates.first_gate() + gates.gates.len());
         let mut left: Vec<Wire> = gates.errors.iter().map(|(wire, ..)| *wire).collect();
         let claimed = subject.claims.iter().map(|claim| claim.variable);
-        // What is delayed is seen as the program makes it.
+        // A delayed output is used as the program computes it.
         let delayed = subject.definitions.iter().filter(|id| subject.is_delayed(**id));
         let seen = delayed.filter_map(|id| subject.variables[id.0]);
         left.extend(claimed.chain(seen).map(|variable| gates.end[variable.0][0]));
@@ -49,7 +49,7 @@ impl<'a> Network<'a> {
         Self { subject, gates, needed, carried }
     }
 
-    /// What the network is at before the first scan.
+    /// Initial state.
     pub(super) fn power_on(&self, solver: &Solver) -> State {
         let bit = |&number: &usize| {
             let (variable, bit) = self.gates.inputs[number];
@@ -59,19 +59,19 @@ impl<'a> Network<'a> {
         State { bits: self.carried.iter().map(bit).collect(), latches }
     }
 
-    /// Any state, reachable or not.
+    /// Arbitrary state, reachable or not.
     pub(super) fn any_state(&self, solver: &mut Solver) -> State {
         let bits = self.carried.iter().map(|_| solver.fresh()).collect();
         State { bits, latches: self.latched().map(|_| solver.fresh()).collect() }
     }
 
-    /// The positions of the definitions that are remembered.
+    /// Positions of the latched definitions.
     fn latched(&self) -> impl Iterator<Item = usize> {
         let definitions = self.subject.definitions.iter().enumerate();
         definitions.filter(|(_, id)| self.subject.latch(**id).is_some()).map(|(position, _)| position)
     }
 
-    /// One scan from a state.
+    /// Encodes one scan from a state.
     pub(super) fn scan(&self, solver: &mut Solver, start: &State) -> Frame {
         let (subject, gates, program) = (self.subject, self.gates, self.subject.program);
         let no = solver.constant(false);
@@ -148,7 +148,7 @@ impl<'a> Network<'a> {
         Frame { start: start.clone(), inputs, outside, allowed, errors, fails, wrong, end }
     }
 
-    /// What a scan reads in the model that was found last.
+    /// Inputs of a scan in the model found last.
     pub(super) fn given(&self, solver: &Solver, frame: &Frame) -> Given {
         let program = self.subject.program;
         let mut inputs: Vec<_> = program.with_role(Role::Input).map(|input| (input, 0_u64)).collect();
@@ -162,56 +162,56 @@ impl<'a> Network<'a> {
     }
 }
 
-/// What is carried from one scan to the next.
+/// State carried from one scan to the next.
 #[derive(Clone)]
 pub(super) struct State {
-    /// Of the program.
+    /// Carried bits of the program.
     bits: Vec<Literal>,
-    /// Of the specification.
+    /// Latches of the specification.
     latches: Vec<Literal>,
 }
 
 impl State {
-    /// From now on, two states are not the same.
+    /// Requires two states to differ.
     pub(super) fn differ(&self, other: &Self, solver: &mut Solver) {
         let pairs = self.bits.iter().zip(&other.bits).chain(self.latches.iter().zip(&other.latches));
         let differ: Vec<Literal> = pairs.map(|(&a, &b)| solver.xor(a, b)).collect();
         solver.require(differ);
     }
 
-    /// How many bits it has.
+    /// Number of bits.
     pub(super) fn bits(&self) -> usize {
         self.bits.len() + self.latches.len()
     }
 }
 
-/// One scan.
+/// Unrolled scan.
 pub(super) struct Frame {
     pub(super) start: State,
-    /// One for each input of the network.
+    /// Literal of each input of the network.
     inputs: Vec<Literal>,
     outside: Vec<Literal>,
-    /// Whether it keeps each of the subject's restrictions.
+    /// Whether the scan satisfies each of the subject's restrictions.
     pub(super) allowed: Vec<Literal>,
-    /// Whether it meets each of the errors.
+    /// Whether the scan meets each of the errors.
     pub(super) errors: Vec<Literal>,
-    /// Whether it meets any.
+    /// Whether the scan meets any error.
     pub(super) fails: Literal,
-    /// Whether each of the claims is wrong at its end.
+    /// Whether each of the claims is violated at the end of the scan.
     pub(super) wrong: Vec<Literal>,
     pub(super) end: State,
 }
 
-/// From now on, a number lies between two others.
+/// Requires a number to lie between two bounds.
 fn is_between(solver: &mut Solver, bits: &[Literal], is_signed: bool, least: i128, greatest: i128) {
-    // With its sign turned round, a signed number is one without sign, more by this.
+    // Inverting the sign bit maps a signed number to an unsigned one, increased by this offset.
     let offset = if is_signed { 1_i128 << (bits.len() - 1) } else { 0 };
     let mut bits = bits.to_vec();
     if let (true, Some(sign)) = (is_signed, bits.last_mut()) {
         *sign = !*sign;
     }
     let (least, greatest) = (least + offset, greatest + offset);
-    // From the highest bit: where the number has the bits of the bound so far, its next bit is none that makes it pass the bound.
+    // From the highest bit: while the number equals the bound so far, its next bit must not pass the bound.
     let (mut as_least, mut as_greatest) = (solver.constant(true), solver.constant(true));
     for (position, &bit) in bits.iter().enumerate().rev() {
         if least >> position & 1 == 1 {

@@ -1,4 +1,4 @@
-//! The order of definitions, and what is defined by way of itself.
+//! Topological order of definitions, and cyclic definitions.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, VecDeque};
@@ -11,7 +11,7 @@ use crate::sif::{Kind, SignalId};
 use petril_base::diagnostic::{Code, Diagnostic};
 
 impl Resolver<'_> {
-    /// Puts definitions behind what they use; a value that is defined by way of itself is an error.
+    /// Orders definitions after those they use; reports cyclic definitions.
     pub(super) fn put_in_order(&mut self) {
         let mut graph: DiGraph<(), ()> = DiGraph::new();
         let signals = &self.specification.signals;
@@ -25,7 +25,7 @@ impl Resolver<'_> {
                 graph.add_edge(node(id), node(used), ());
             }
         }
-        // Components come in an order in which each stands behind those it leads to.
+        // Components come in topological order: each after those it leads to.
         let components = kosaraju_scc(&graph);
         let order = components.iter().flatten().map(|node| SignalId(node.index()));
         self.specification.order = order.filter(|id| matches!(signals[id.0].kind, Kind::Defined { .. })).collect();

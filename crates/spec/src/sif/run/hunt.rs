@@ -1,4 +1,4 @@
-//! Which faults of a program tests find.
+//! Mutation testing of a program: which of its faults the tests find.
 
 use rayon::prelude::*;
 
@@ -8,31 +8,31 @@ use crate::sif::Plan;
 use petril_lang::flat::{FlatProgram, Target};
 use petril_lang::semantics::VarId;
 
-/// What became of a program with a fault.
+/// Fate of a mutant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// A test is not passed: the position of its plan, and its own.
+    /// Killed: a test is not passed; position of its plan, and of the test.
     Found(usize, usize),
-    /// No test finds it, and none could: it computes what is specified.
+    /// Equivalent: no test can find it, since it computes the specification.
     Equivalent,
-    /// No test finds it, though it differs from what is specified.
+    /// Survived, although it differs from the specification.
     Missed,
-    /// No test finds it, and for this reason it is not known whether one could.
+    /// Survived, and for this reason it is not known whether it is equivalent.
     Undecided(String),
 }
 
-/// Whether a program that passes all tests computes what is specified.
+/// Decides whether a program that passes all tests computes its specification.
 pub type Decide<'d> = dyn Fn(&FlatProgram) -> Fate + Sync + 'd;
 
-/// All faults of a program, with what became of each.
+/// Result of mutation testing.
 #[derive(Clone, Debug, Default)]
 pub struct Hunt {
-    /// In the order of the program.
+    /// Mutants with their fates, in the order of the program.
     pub mutants: Vec<(Mutant, Fate)>,
 }
 
 impl Hunt {
-    /// How many there are of a class, or of all classes: all of them, found, equivalent, missed, undecided.
+    /// Number of mutants of a class, or of all classes: all, found, equivalent, missed, undecided.
     #[must_use]
     pub fn counts(&self, class: Option<&str>) -> [usize; 5] {
         let mut counts = [0; 5];
@@ -49,8 +49,8 @@ impl Hunt {
     }
 }
 
-/// Runs tests on programs with one fault each. What they do not find, `decide` looks at. `stop` is asked before each fault; what
-/// is left then is undecided.
+/// Runs the tests on all mutants. Survivors are decided by `decide`. `stop` is called before each mutant; those left
+/// when it returns true are undecided.
 #[must_use]
 pub fn hunt(
     runner: &Runner<'_>,
@@ -59,7 +59,7 @@ pub fn hunt(
     decide: &Decide<'_>,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Hunt {
-    // Most faults are found by the tests of the function whose output is written next.
+    // Most mutants are killed by the tests of the function whose output is written next.
     let written: Vec<Option<usize>> = plans.iter().map(|plan| written(runner, plan)).collect();
     let nearest = |line: usize| {
         let behind = (0..plans.len()).filter(|&plan| written[plan].is_some_and(|written| written >= line));
@@ -77,7 +77,7 @@ pub fn hunt(
     Hunt { mutants: fates.collect() }
 }
 
-/// The last line that writes an output of a plan's function.
+/// Last line that writes an output of a plan's function.
 fn written(runner: &Runner<'_>, plan: &Plan) -> Option<usize> {
     let outputs = &runner.specification().functions[plan.function].outputs;
     let variables: Vec<VarId> = outputs.iter().filter_map(|output| runner.variable(*output)).collect();

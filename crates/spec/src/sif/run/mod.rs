@@ -1,4 +1,5 @@
-//! Tests of a plan on the interpreter: inputs are set, scans are made, outputs are compared with what is expected.
+//! Execution of test plans by the interpreter: inputs are set, scans executed, and outputs compared with expected
+//! values.
 
 mod hunt;
 mod model;
@@ -17,19 +18,19 @@ use petril_lang::semantics::{Role, VarId};
 pub use hunt::{Decide, Fate, Hunt, hunt};
 pub use mutants::{Mutant, mutants};
 
-/// A test takes no more scans than this: more than five hours at 20 ms.
+/// Upper bound on the scans of a test: more than five hours at 20 ms.
 const MAX_SCANS: u64 = 1 << 20;
 
-/// What a test begins with.
+/// Initial state of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
-    /// With power-on, each of them.
+    /// Power-on, for each test.
     PowerOn,
-    /// With what the test before has left, as on the real plant: latches remember. After an error it is power-on again.
+    /// Final state of the previous test, as on the real plant: latches keep their values. After an error, power-on.
     Continued,
 }
 
-/// A program whose inputs and outputs are those of a specification.
+/// Test runner: a program with its variables bound to a specification's signals.
 #[derive(Clone, Debug)]
 pub struct Runner<'a> {
     specification: &'a Specification,
@@ -39,43 +40,43 @@ pub struct Runner<'a> {
     variables: Vec<Option<VarId>>,
 }
 
-/// What became of the tests of one plan.
+/// Results of one plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanRun {
-    /// One for each test.
+    /// Results, one for each test.
     pub tests: Vec<TestRun>,
-    /// Outputs that the tests touch and the program does not have: they are not compared.
+    /// Outputs touched by the tests that the program does not have: they are not compared.
     pub absent: Vec<SignalId>,
 }
 
-/// What became of one test.
+/// Result of one test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TestRun {
-    /// How many scans were made.
+    /// Number of scans executed.
     pub scans: u64,
-    /// How it ended.
+    /// Outcome.
     pub ending: Ending,
-    /// The outputs that are TRUE in the end, of those that are compared.
+    /// Outputs that are TRUE at the end, among those compared.
     pub outputs: FixedBitSet,
-    /// Outputs for which something else is expected than from power-on, because they remember.
+    /// Outputs whose expected value differs from the one after power-on, because of a latch.
     pub remembered: Vec<SignalId>,
 }
 
-/// How a test ends.
+/// Outcome of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// All outputs are as expected.
+    /// All outputs have their expected values.
     Passed,
-    /// These are not.
+    /// These outputs deviate.
     Failed(Vec<Deviation>),
-    /// The last scan went wrong, so that nothing is known of its end.
+    /// The last scan failed, so its end is not known.
     Error(Failure),
-    /// It would take more scans than anybody waits for.
+    /// The test would exceed the limit on scans.
     TooLong,
 }
 
 impl Ending {
-    /// A word for it: `passed`, `failed` or `error`.
+    /// The outcome in one word: `passed`, `failed` or `error`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -86,24 +87,24 @@ impl Ending {
     }
 }
 
-/// An output that is not as expected.
+/// Output with an unexpected value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Deviation {
-    /// The output.
+    /// Output.
     pub output: SignalId,
-    /// What is expected; it was the opposite.
+    /// Expected value; the actual one was the opposite.
     pub expected: bool,
-    /// The scan after which it was so (from 1).
+    /// Scan after which the output deviated (from 1).
     pub scan: u64,
-    /// Whether it came before its delay had passed.
+    /// Whether the output became TRUE before its delay had passed.
     pub early: bool,
 }
 
 impl<'a> Runner<'a> {
-    /// Finds the variables that these plans need.
+    /// Binds the signals that these plans need to variables.
     ///
     /// # Errors
-    /// Signals that stand for nothing in the program, or for what they cannot.
+    /// Signals whose variable is missing or unsuitable.
     pub fn new(
         specification: &'a Specification,
         program: &'a FlatProgram,
@@ -133,25 +134,25 @@ impl<'a> Runner<'a> {
         Ok(Self { specification, program, tolerated, start, variables: binder.finish()? })
     }
 
-    /// The specification.
+    /// Specification.
     #[must_use]
     pub fn specification(&self) -> &'a Specification {
         self.specification
     }
 
-    /// The program.
+    /// Program.
     #[must_use]
     pub fn program(&self) -> &'a FlatProgram {
         self.program
     }
 
-    /// What each test begins with.
+    /// Initial state of each test.
     #[must_use]
     pub fn start(&self) -> Start {
         self.start
     }
 
-    /// The same tests for another program with the same variables.
+    /// Runner of another program with the same variables.
     #[must_use]
     pub fn with<'b>(&self, program: &'b FlatProgram) -> Runner<'b>
     where
@@ -167,20 +168,20 @@ impl<'a> Runner<'a> {
         self.variables[signal.0]
     }
 
-    /// Inputs of the program that no signal stands for. They keep their initial values.
+    /// Inputs of the program bound to no signal. They keep their initial values.
     pub fn unset(&self) -> impl Iterator<Item = VarId> + '_ {
         self.program.with_role(Role::Input).filter(|id| !self.variables.contains(&Some(*id)))
     }
 
-    /// Runs all tests, plan after plan.
+    /// Runs all tests, plan by plan.
     #[must_use]
     pub fn run(&self, plans: &[Plan]) -> Vec<PlanRun> {
         let mut run = Run::new(self);
         plans.iter().map(|plan| run.plan(plan)).collect()
     }
 
-    /// The first test that is not passed: its plan and its position. If each test begins with power-on, plans are tried from this
-    /// one on, and those before it last.
+    /// First test that is not passed: position of its plan, and of the test. If each test starts at power-on, plans are
+    /// tried from `from` on, and those before it last.
     #[must_use]
     pub fn first_not_passed(&self, plans: &[Plan], from: usize) -> Option<(usize, usize)> {
         let mut run = Run::new(self);
@@ -194,7 +195,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Tests under way: the program and the specification side by side.
+/// Tests under way: program and reference model side by side.
 struct Run<'r> {
     runner: &'r Runner<'r>,
     machine: Machine<'r>,
@@ -276,7 +277,7 @@ impl<'r> Run<'r> {
     }
 }
 
-/// Whether an output has a delay of its own.
+/// Whether an output is delayed.
 fn is_delayed(specification: &Specification, output: SignalId) -> bool {
     matches!(specification.signal(output).kind, Kind::Defined { delayed: Some(_), .. })
 }

@@ -1,27 +1,27 @@
-//! Programs with one fault each: what people who write Instruction List mistype, forget and mix up.
+//! Mutants: programs with a single fault, as authors of Instruction List mistype, omit and confuse.
 
 use petril_base::source::Source;
 use petril_lang::flat::{Condition, FlatProgram, Function, Instruction, Operand, Target};
 use petril_lang::semantics::{Role, Type, VarId};
 
-/// If there are more inputs than this, an operand is only mixed up with those declared next to it.
+/// Number of inputs beyond which an operand is confused with adjacently declared ones only.
 const MAX_INPUTS: usize = 16;
 
-/// A fault of one instruction.
+/// Mutant: a fault of one instruction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mutant {
-    /// The line of flat code, from 0.
+    /// Line of flat code, from 0.
     pub line: usize,
-    /// What kind of fault it is.
+    /// Class of the fault (mutation operator).
     pub class: &'static str,
-    /// What stands there instead.
+    /// Instruction that replaces the original one.
     pub instruction: Instruction,
-    /// What it does in words: "`ANDN ACC_Tst` becomes `AND ACC_Tst`".
+    /// Fault in words: "`ANDN ACC_Tst` becomes `AND ACC_Tst`".
     pub fault: String,
 }
 
 impl Mutant {
-    /// The kinds of faults, in the order in which they are told.
+    /// Classes of faults, in the order of reports.
     pub const CLASSES: [&'static str; 6] =
         ["modifier", "operator", "operand", "left out", "stuck at FALSE", "stuck at TRUE"];
 
@@ -34,8 +34,8 @@ impl Mutant {
     }
 }
 
-/// All faults of a program. Only instructions that are written in its text are touched, not what a call of a function block
-/// stands for.
+/// Generates all mutants of a program. Only instructions written in its text are changed, not the expansion of a
+/// function block call.
 #[must_use]
 pub fn mutants(program: &FlatProgram, source: &Source) -> Vec<Mutant> {
     let is_bool = |id: &VarId| program.variable(*id).ty.is_bool();
@@ -92,7 +92,7 @@ pub fn mutants(program: &FlatProgram, source: &Source) -> Vec<Mutant> {
     found
 }
 
-/// Other operands: the inputs it could be mixed up with, and values it could be stuck at. A parenthesis has none.
+/// Alternative operands: inputs it may be confused with, and constants it may be stuck at. A parenthesis has none.
 fn operands(operand: Operand, inputs: &[VarId], program: &FlatProgram, add: &mut impl FnMut(&'static str, Operand)) {
     let Operand::Place(Target::Variable(own)) = operand else { return };
     if program.variable(own).role == Role::Buffer {
@@ -107,7 +107,7 @@ fn operands(operand: Operand, inputs: &[VarId], program: &FlatProgram, add: &mut
     add("stuck at TRUE", Operand::Constant(1));
 }
 
-/// Whether a piece of source is an instruction that means what it says, and no call.
+/// Whether a piece of source is an instruction that stands for itself, rather than a call.
 fn is_written(text: &str) -> bool {
     let first = text.trim_start().split(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default();
     let first = first.to_ascii_uppercase();
@@ -116,7 +116,7 @@ fn is_written(text: &str) -> bool {
         || text.starts_with('&')
 }
 
-/// An instruction with one blank.
+/// Text of an instruction with single blanks.
 fn squeezed(program: &FlatProgram, instruction: Instruction) -> String {
     program.text(instruction).split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,8 +1,8 @@
-//! Causes of which no test is left.
+//! Causes for which no allowed test is left.
 //!
-//! A cause is what can make an output TRUE by itself: an operand of a disjunction in the negation normal form of its formula.
-//! Auxiliary values are looked into; what stands under `at most one of`, `exactly one of` or an `xor` of more than two is taken
-//! as a whole.
+//! A cause is a condition that makes an output TRUE by itself: an operand of a disjunction in the negation normal form
+//! of its formula. Auxiliary values are expanded; operands of `at most one of`, `exactly one of` or an `xor` of more
+//! than two stay together.
 
 use rustc_hash::FxHashSet;
 
@@ -13,11 +13,11 @@ use super::finding::{Doubt, Finding};
 use super::model::{Model, Occurrence};
 use super::outputs::equation;
 
-/// So many parts of a formula are looked at, with its auxiliary values as often as they are used.
+/// Upper bound on subformulas examined per output, auxiliary values counted at each use.
 const MAX_PARTS: usize = 5000;
 
-/// The causes of a function's outputs that the restrictions remove, and all occurrences of signals in these. Outputs that never
-/// change are left out.
+/// Causes of a function's outputs that the restrictions exclude, and all occurrences of signals in these. Constant
+/// outputs are skipped.
 pub fn removed(model: &mut Model<'_>, function: usize, constant: &[SignalId]) -> (Vec<Finding>, FxHashSet<Occurrence>) {
     let specification = model.specification;
     let mut search = Search {
@@ -43,22 +43,22 @@ pub fn removed(model: &mut Model<'_>, function: usize, constant: &[SignalId]) ->
     (search.findings, search.removed)
 }
 
-/// And so deep, from one auxiliary value to the next.
+/// Upper bound on the recursion depth, through auxiliary values.
 const MAX_DEPTH: usize = 300;
 
-/// A part of a formula, to be TRUE or to be FALSE.
+/// Subformula with the value it is required to have.
 #[derive(Clone, Copy)]
 struct Part<'f> {
     formula: &'f Formula,
     is_true: bool,
-    /// In the formula of this signal.
+    /// Signal whose formula contains it.
     of: SignalId,
-    /// So many signals are named to its left.
+    /// Number of signal occurrences to its left.
     at: usize,
 }
 
 impl<'f> Part<'f> {
-    /// The operands, each to be what this says for its position.
+    /// The operands, each with its required value.
     fn operands(&self, operands: &'f [Formula], is_true: impl Fn(usize) -> bool) -> Vec<Self> {
         let mut at = self.at;
         let mut parts = Vec::new();
@@ -74,10 +74,10 @@ impl<'f> Part<'f> {
     }
 }
 
-/// What a part is made of in negation normal form.
+/// Decomposition of a subformula in negation normal form.
 enum Shape<'f> {
     All(Vec<Part<'f>>),
-    /// One of these conjunctions.
+    /// Disjunction of conjunctions.
     Any(Vec<Vec<Part<'f>>>),
     Whole,
 }
@@ -86,7 +86,7 @@ struct Search<'m, 's> {
     model: &'m mut Model<'s>,
     function: usize,
     output: SignalId,
-    /// Parts that may still be looked at.
+    /// Number of subformulas that may still be examined.
     left: usize,
     depth: usize,
     findings: Vec<Finding>,
@@ -94,7 +94,7 @@ struct Search<'m, 's> {
 }
 
 impl<'s> Search<'_, 's> {
-    /// Looks for causes in a part; `beside` has to be true too for it to count.
+    /// Searches a subformula for causes; `beside` are the other conjuncts it depends on.
     fn look(&mut self, part: &Part<'s>, beside: &mut Vec<(Literal, Formula)>) {
         self.left = if self.depth == MAX_DEPTH { 0 } else { self.left.saturating_sub(1) };
         if self.left == 0 {
@@ -160,7 +160,7 @@ impl<'s> Search<'_, 's> {
                     }
                     (Operator::Implies, false) => Shape::All(part.operands(operands, |position| position == 0)),
                     (Operator::Xor | Operator::Iff, is_true) if operands.len() == 2 => {
-                        // Both the same, or not.
+                        // Both equal, or both different.
                         let is_same = (*operator == Operator::Iff) == is_true;
                         let either = |first: bool| {
                             part.operands(operands, |at| if is_same { first } else { (at == 0) == first })
@@ -173,7 +173,7 @@ impl<'s> Search<'_, 's> {
         }
     }
 
-    /// Whether the restrictions remove all tests in which a cause is true with the output, or makes it true.
+    /// Whether the restrictions exclude all tests in which a cause is true together with the output, or makes it true.
     fn is_removed(&mut self, cause: &[Part<'s>], beside: &[(Literal, Formula)]) -> bool {
         let written: Vec<Formula> = cause.iter().map(Part::written).collect();
         let literals: Vec<Literal> = written.iter().map(|part| self.model.literal(part)).collect();
@@ -214,7 +214,7 @@ impl<'s> Search<'_, 's> {
         }
     }
 
-    /// Notes all that is named in a part, and in the auxiliary values there.
+    /// Records all occurrences in a subformula, and in its auxiliary values.
     fn forget(&mut self, part: &Part<'s>) {
         let mut left = vec![*part];
         while let Some(Part { formula, of, at, .. }) = left.pop() {
@@ -232,7 +232,7 @@ impl<'s> Search<'_, 's> {
     }
 }
 
-/// All that a formula names, as often as it does.
+/// Signals of a formula, with repetitions.
 fn named(formula: &Formula) -> Vec<SignalId> {
     let mut all = Vec::new();
     formula.each_signal(&mut |signal| all.push(signal));
@@ -245,7 +245,7 @@ fn size(formula: &Formula) -> usize {
     count
 }
 
-/// A conjunction without conjunctions in it.
+/// Flattened conjunction.
 fn joined(parts: impl Iterator<Item = Formula>) -> Formula {
     let mut all = Vec::new();
     for part in parts {

@@ -1,7 +1,7 @@
-//! How many valuations a function has, and how many are left for tests.
+//! Number of valuations of a function, and of those that restrictions leave for tests.
 //!
-//! A valuation of the inputs that a function is computed from is excluded by restrictions if these exclude it whatever the other
-//! inputs are. Outputs that are latched or delayed count as their formulas.
+//! Restrictions exclude a valuation of the inputs a function is computed from if they exclude it whatever the other
+//! inputs are. Latched or delayed outputs count as their formulas.
 
 use super::super::cone::Cone;
 use super::super::diagram::{Diagram, Diagrams};
@@ -9,36 +9,36 @@ use super::super::formula::SignalId;
 use super::super::solver::Stop;
 use super::super::specification::{Restriction, Specification};
 
-/// How large diagrams may become. Where they would be larger, there is no count.
+/// Node limit of the diagrams. Beyond it, counts are missing.
 const NODES: usize = 20_000;
 
-/// The valuations of one output.
+/// Counts for one output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counts {
-    /// The output.
+    /// Output.
     pub output: SignalId,
-    /// The inputs that it is computed from.
+    /// Number of inputs the output is computed from.
     pub inputs: usize,
-    /// How many valuations make it TRUE. No number here or below means that they are more than can be counted.
+    /// Number of valuations that make it TRUE; here and below, `None` if it cannot be counted.
     pub triggers: Option<String>,
-    /// Of these, how many each restriction excludes, if it excludes any.
+    /// Restrictions that exclude some of these valuations.
     pub excluded: Vec<Excluded>,
-    /// How many are left.
+    /// Number of valuations left.
     pub left: Option<String>,
 }
 
-/// What a restriction excludes.
+/// Effect of a restriction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excluded {
-    /// The position of the restriction.
+    /// Position of the restriction.
     pub restriction: usize,
-    /// How many valuations it excludes by itself.
+    /// Number of valuations that it excludes by itself.
     pub by_itself: Option<String>,
-    /// How many are left when this restriction and all before it are kept.
+    /// Number of valuations left under this restriction and all before it.
     pub left: Option<String>,
 }
 
-/// The counts for all outputs of a function.
+/// Counts for all outputs of a function.
 #[must_use]
 pub fn counts(specification: &Specification, function: usize, stop: &Stop) -> Vec<Counts> {
     let cone = Cone::of_function(specification, function);
@@ -50,7 +50,7 @@ pub fn counts(specification: &Specification, function: usize, stop: &Stop) -> Ve
 struct Counting<'c, 's> {
     cone: &'c Cone<'s>,
     diagrams: Option<Diagrams>,
-    /// What is known of each signal.
+    /// Diagram of each signal, if not too large.
     signals: Vec<Option<Diagram>>,
     stop: &'c Stop,
 }
@@ -76,7 +76,7 @@ impl<'c, 's> Counting<'c, 's> {
     }
 
     fn counts(&mut self, output: SignalId) -> Counts {
-        // Which of the inputs matter to this very output.
+        // Inputs of this output only.
         let specification = self.cone.specification;
         let own = Cone::of(specification, &[output], Vec::new()).inputs;
         let mut counts = Counts { output, inputs: own.len(), triggers: None, excluded: Vec::new(), left: None };
@@ -84,7 +84,7 @@ impl<'c, 's> Counting<'c, 's> {
         let others: Vec<SignalId> = self.cone.all_inputs().filter(|input| !own.contains(input)).collect();
         let count = |set: &Diagram| diagrams.count_without(set, &others);
         counts.triggers = Some(count(&is_true));
-        // Step by step: what is left is always of this output's own inputs.
+        // Cumulative: the valuations left are projected onto this output's own inputs.
         let mut allowed = Some(diagrams.constant(true));
         for (at, restriction) in self.restrictions() {
             if (self.stop)() {
@@ -112,7 +112,7 @@ impl<'c, 's> Counting<'c, 's> {
         counts
     }
 
-    /// The restrictions of the cone, with their positions.
+    /// Restrictions of the cone, with their positions.
     fn restrictions(&self) -> Vec<(usize, &'s Restriction)> {
         let mut kept = self.cone.restrictions.iter().peekable();
         let all = self.cone.specification.restrictions.iter().enumerate();

@@ -1,4 +1,4 @@
-//! Inputs that are named and make no difference.
+//! Inputs that are mentioned but have no effect.
 
 use fixedbitset::FixedBitSet;
 
@@ -8,30 +8,30 @@ use super::super::specification::Specification;
 use super::finding::{Doubt, Example, Finding};
 use super::model::{Change, Model, Values};
 
-/// What is known so far of each input, function by function.
+/// Effect of each input, as known after the functions seen so far.
 pub struct Effects<'s> {
     specification: &'s Specification,
-    /// It makes a difference, or there is a reason to say nothing of it.
+    /// Inputs with an effect, or that nothing is to be reported about.
     settled: FixedBitSet,
-    /// In some function the question is open.
+    /// Inputs for which the question is open in some function.
     open: FixedBitSet,
-    /// Because of which restrictions it makes none, and what would be without them.
+    /// For each input without effect, the restrictions responsible, and an example.
     because: Vec<(Vec<usize>, Option<Example>)>,
 }
 
 impl<'s> Effects<'s> {
-    /// Nothing is known.
+    /// Starts without knowledge.
     pub fn new(specification: &'s Specification) -> Self {
         let (settled, open) = (specification.valuation([]), specification.valuation([]));
         Self { specification, settled, open, because: vec![(Vec::new(), None); specification.signals.len()] }
     }
 
-    /// Says nothing of the inputs of a function that has no valuations.
+    /// Suppresses reports about the inputs of a function without allowed valuations.
     pub fn leave_open(&mut self, model: &Model<'_>) {
         model.cone.inputs.iter().for_each(|input| self.settled.insert(input.0));
     }
 
-    /// Looks at a function; some of its outputs never change. What an input of these could do has been said with them.
+    /// Examines a function. If some of its outputs are constant, its inputs are not reported in addition.
     pub fn see(&mut self, model: &mut Model<'_>, function: usize, constant: &[SignalId]) {
         if !constant.is_empty() {
             self.leave_open(model);
@@ -65,7 +65,7 @@ impl<'s> Effects<'s> {
         }
     }
 
-    /// The inputs that make no difference to any function, but for those that are not used at all.
+    /// Inputs without effect on any function, except those not used at all.
     pub fn findings(&self, unused: &FixedBitSet) -> Vec<Finding> {
         let mut findings = Vec::new();
         for input in self.specification.inputs().filter(|id| !unused.contains(id.0) && !self.settled.contains(id.0)) {
@@ -82,13 +82,13 @@ impl<'s> Effects<'s> {
     }
 }
 
-/// Where something shows: the outputs of a function, but for some.
+/// Observation points: the outputs of a function, except some.
 pub fn roots(specification: &Specification, function: usize, but: &[SignalId]) -> Vec<SignalId> {
     let outputs = specification.functions[function].outputs.iter().copied();
     outputs.filter(|output| !but.contains(output)).collect()
 }
 
-/// Whether the formula of one of these is otherwise than it was, or its reset.
+/// Literal that is true when the formula or the reset condition of some root has changed.
 pub fn differs(model: &mut Model<'_>, changed: &Values, roots: &[SignalId]) -> Literal {
     let mut any = Vec::new();
     for root in roots {

@@ -1,75 +1,76 @@
-//! What was found, as data.
+//! Findings of the sanity checks, as data.
 
 use super::super::formula::{Formula, SignalId};
 use super::super::specification::Place;
 
-/// What is doubtful.
+/// Kind of finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Doubt {
-    /// No equation and no reset names the input `signals[0]`.
+    /// No equation and no reset condition mentions the input `signals[0]`.
     InputNotUsed,
-    /// Whatever the input `signals[0]` is, it makes no difference to any output or reset.
+    /// The input `signals[0]` has no effect on any output or reset.
     InputWithoutEffect,
-    /// The interface of `function` lists `signals[0]`, and its formulas do not name it.
+    /// The interface of `function` lists `signals[0]`, but its formulas do not mention it.
     InputListed,
-    /// The formulas of `function` name these signals, and its interface does not list them.
+    /// The formulas of `function` mention these signals, but its interface does not list them.
     InputNotListed,
-    /// The output `signals[0]` always has `value`.
+    /// The output `signals[0]` is constantly `value`.
     Constant,
-    /// No valuation keeps all of `restrictions`.
+    /// The `restrictions` contradict each other.
     Contradiction,
-    /// The first of `restrictions` excludes nothing that the others do not.
+    /// The first of `restrictions` is implied by the others.
     Implied,
-    /// The only one of `restrictions` has nothing to do with any function that it is about.
+    /// The only one of `restrictions` concerns no function in its scope.
     Apart,
-    /// In no test does the cause `formula` make the output `signals[0]` TRUE.
+    /// The cause `formula` makes the output `signals[0]` TRUE in no allowed test.
     CauseRemoved,
     /// The literal `formula`, of the signal `signals[1]` in the equation of `signals[0]`, never decides an output.
     NeverDecides,
-    /// The outputs `signals` are always the same, or, if `value` is FALSE, never.
+    /// The two outputs `signals` are always equal or, if `value` is FALSE, always opposite.
     Same,
-    /// The output `signals[0]` is never reset.
+    /// The latched output `signals[0]` is never reset.
     ResetNever,
-    /// The question could not be answered.
+    /// The question could not be decided.
     NotDecided,
 }
 
-/// Something doubtful. What the fields mean for it, [`Doubt`] says; cores of restrictions are such that none can be left out.
+/// Finding. The meaning of its fields depends on the [`Doubt`]; cores of restrictions are minimal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// What it is.
+    /// Kind of finding.
     pub doubt: Doubt,
-    /// Where the reader is sent.
+    /// Place to report.
     pub place: Place,
-    /// The function concerned.
+    /// Function concerned.
     pub function: Option<usize>,
-    /// The signals concerned.
+    /// Signals concerned.
     pub signals: Vec<SignalId>,
-    /// The formula concerned.
+    /// Formula concerned.
     pub formula: Option<Formula>,
-    /// The value concerned.
+    /// Value concerned.
     pub value: bool,
-    /// Which of the occurrences of its signal in its equation a literal is, from 1, if there are several.
+    /// Number of a literal among the occurrences of its signal in the equation, from 1, if there are several.
     pub nth: Option<usize>,
-    /// The restrictions that make it so: positions among those of the specification.
+    /// Restrictions responsible, by position in the specification.
     pub restrictions: Vec<usize>,
-    /// A valuation that shows it.
+    /// Valuation that shows the finding.
     pub example: Option<Example>,
-    /// What could not be decided.
+    /// Question that could not be decided.
     pub question: Option<String>,
 }
 
-/// Values of some signals: inputs, and, if they are remembered, outputs.
+/// Values of some signals: inputs, and latched or delayed outputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Example {
-    /// The signals and their values.
+    /// Signals with their values.
     pub values: Vec<(SignalId, bool)>,
-    /// The restrictions exclude it, and without them it would be otherwise. Else it is allowed, and shows that it is so.
+    /// Whether the restrictions exclude this valuation, in which the finding would be false. Else it is allowed, and
+    /// the finding is true in it.
     pub is_excluded: bool,
 }
 
 impl Finding {
-    /// A finding at a place.
+    /// Creates a finding at a place.
     pub(super) fn new(doubt: Doubt, place: Place) -> Self {
         Self {
             doubt,

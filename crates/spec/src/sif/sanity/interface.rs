@@ -1,4 +1,4 @@
-//! Inputs that nothing uses, and interfaces that do not list what their functions use.
+//! Unused inputs, and interfaces that do not match the formulas of their functions.
 
 use fixedbitset::FixedBitSet;
 
@@ -6,7 +6,7 @@ use super::super::formula::{Formula, SignalId};
 use super::super::specification::{Kind, Scope, Specification};
 use super::finding::{Doubt, Finding};
 
-/// The inputs that no equation and no reset names.
+/// Inputs that no equation and no reset condition mentions.
 pub fn unused(specification: &Specification) -> FixedBitSet {
     let mut unused = specification.valuation(specification.inputs());
     for signal in &specification.signals {
@@ -17,7 +17,7 @@ pub fn unused(specification: &Specification) -> FixedBitSet {
     unused
 }
 
-/// These inputs, and what functions list and do not use, or use and do not list.
+/// Findings about unused inputs, and signals that functions list but do not use, or use but do not list.
 pub fn interfaces(specification: &Specification, unused: &FixedBitSet) -> Vec<Finding> {
     let not_used = unused
         .ones()
@@ -41,7 +41,7 @@ pub fn interfaces(specification: &Specification, unused: &FixedBitSet) -> Vec<Fi
         for &input in function.inputs.iter().filter(|input| !named.contains(input.0) && !unused.contains(input.0)) {
             findings.push(Finding::new(Doubt::InputListed, function.place).of(at).signals([input]));
         }
-        // Whoever lists no input at all has chosen to declare them elsewhere.
+        // Interfaces without any input declare them elsewhere on purpose.
         used.retain(|signal| !function.inputs.contains(signal));
         if !used.is_empty() && !function.inputs.is_empty() {
             findings.push(Finding::new(Doubt::InputNotListed, function.place).of(at).signals(used));

@@ -1,4 +1,4 @@
-//! Literals that never decide an output under the restrictions, and could without them.
+//! Literals that never decide an output because of the restrictions.
 
 use rustc_hash::FxHashSet;
 
@@ -10,15 +10,15 @@ use super::finding::{Doubt, Finding};
 use super::model::{Change, Model, Occurrence};
 use super::outputs::equation;
 
-/// A literal as it stands in a formula.
+/// Occurrence of a signal in a formula.
 struct Literal {
     signal: SignalId,
-    /// Whether `!` stands before it.
+    /// Whether the occurrence is negated.
     is_negated: bool,
 }
 
-/// The literals of a function that decide none of its outputs or resets: with the opposite there, these would be the same
-/// wherever the restrictions are kept. Those of removed causes are left out.
+/// Literals of a function that decide none of its outputs or resets: negating one changes none of them in any allowed
+/// valuation. Literals of excluded causes are skipped.
 pub fn never_decide(
     model: &mut Model<'_>,
     function: usize,
@@ -63,7 +63,7 @@ pub fn never_decide(
     findings
 }
 
-/// The literals of a function's equations and resets, each with its number if there are several of its signal.
+/// Literals of a function's equations and reset conditions, each numbered if its signal occurs several times.
 fn occurrences(specification: &Specification, function: usize) -> Vec<(Occurrence, Literal, Option<usize>)> {
     let mut all = Vec::new();
     for &of in &specification.functions[function].equations {
@@ -84,7 +84,7 @@ fn occurrences(specification: &Specification, function: usize) -> Vec<(Occurrenc
     all
 }
 
-/// The literals from left to right.
+/// Collects the literals from left to right.
 fn walk(formula: &Formula, is_negated: bool, literals: &mut Vec<Literal>) {
     match formula {
         Formula::Constant(_) => {}

@@ -1,8 +1,8 @@
-//! Whether a specification makes sense: what its author may not have meant, decided for all valuations at once.
+//! Sanity checks of a specification: what its author may not have meant, decided for all valuations at once.
 //!
-//! Everything that is said was proved by the solver; a question that it was stopped at is said to be open. What is latched or
-//! delayed may have other values than its formula, so wherever a formula uses such an output, it is taken to have any value
-//! that it can have: nothing is said that is only so as long as nothing is remembered.
+//! Every finding is proved by the solver; a question that the solver was stopped at is reported as open. A latched or
+//! delayed output may differ from its formula, so wherever a formula uses one, all its possible values are considered:
+//! no finding depends on an empty latch.
 //!
 //! ```
 //! use petril_spec::sif::{Specification, sanity};
@@ -41,15 +41,16 @@ use super::specification::{Kind, Restriction, Specification};
 use effects::Effects;
 use model::Model;
 
-/// Never stops the work.
+/// A [`Stop`] that never stops.
 #[must_use]
 pub fn never() -> Stop {
     Arc::new(|| false)
 }
 
-/// All that is doubtful in a specification, in the order of the text. `stop` ends the work: what is open then is said to be.
+/// Checks a specification; findings are in the order of the text. `stop` ends the work, and open questions are
+/// reported.
 ///
-/// Where restrictions contradict each other, whatever they restrict has no test, and nothing else is said of it.
+/// Functions with contradictory restrictions have no test, and nothing else is reported about them.
 #[must_use]
 pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
     let (mut findings, consistency) = restrictions::contradictions(specification, stop);
@@ -85,7 +86,7 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
         constant.extend(still);
     }
     let without = effects.findings(&unused);
-    // A literal of an input that makes no difference anywhere is no news.
+    // An input without effect is reported once, not also for its literals.
     let is_news = |finding: &Finding| {
         let signal = finding.signals.get(1);
         finding.doubt != Doubt::NeverDecides || !without.iter().any(|other| other.signals.first() == signal)
@@ -99,13 +100,13 @@ pub fn check(specification: &Specification, stop: &Stop) -> Vec<Finding> {
     findings
 }
 
-/// What matters to a function: to what it defines, and to the resets of its outputs and of what they use.
+/// Cone of influence of a function's definitions, including the reset conditions of its outputs and of all they use.
 fn cone(specification: &Specification, function: usize) -> Cone<'_> {
     let restrictions: Vec<&Restriction> = specification.restrictions_of(function).collect();
     closed(specification, specification.functions[function].equations.clone(), &restrictions)
 }
 
-/// The cone of these signals, and of the resets of all that is latched in it.
+/// Cone of these signals, closed under reset conditions.
 fn closed<'s>(
     specification: &'s Specification,
     mut signals: Vec<super::SignalId>,

@@ -1,4 +1,4 @@
-//! A cone in a solver: its signals as literals, also with something changed, and which restrictions are to blame.
+//! A cone in a solver: signals as literals, variants with a change, and cores of restrictions.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,57 +11,58 @@ use super::super::solver::{Answer, Literal, Solver, Stop};
 use super::super::specification::{Kind, Specification};
 use super::finding::Example;
 
-/// How many decisions the solver may make for one question. The same on every machine.
+/// Upper bound on decisions of the solver per question; the result is the same on every machine.
 const DECISIONS: u64 = 300_000;
 
-/// A cone in a solver.
+/// A cone encoded in a solver.
 pub struct Model<'s> {
     pub specification: &'s Specification,
     pub cone: Cone<'s>,
     pub solver: Solver,
-    /// The signals as they are.
+    /// Signals without change.
     pub values: Values,
-    /// The restrictions of the cone: their positions in the specification, and what they allow.
+    /// Restrictions of the cone: position in the specification, and literal.
     pub restrictions: Vec<(usize, Literal)>,
-    /// What was TRUE in the scan before, and what has been for long enough.
+    /// For latched or delayed signals, whether the signal was TRUE in the scan before, and whether its formula has been
+    /// for long enough.
     memory: Vec<Option<(Literal, Literal)>>,
     left: Arc<AtomicU64>,
     stop: Stop,
 }
 
-/// Literals for the signals of the specification; those outside of the cone mean nothing.
+/// Literals of the specification's signals; meaningless outside the cone.
 #[derive(Clone)]
 pub struct Values {
-    /// What those who use a signal see.
+    /// Value used by other formulas.
     seen: Vec<Literal>,
-    /// What its formula says.
+    /// Value of the formula.
     pub formula: Vec<Literal>,
-    /// What its reset says.
+    /// Value of the reset condition.
     pub reset: Vec<Literal>,
 }
 
-/// What is not as it is written.
+/// Change of a specification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// An input has the opposite value.
+    /// The value of an input is inverted.
     Input(SignalId),
-    /// One occurrence of a signal is negated.
+    /// An occurrence of a signal is negated.
     Occurrence(Occurrence),
 }
 
-/// Where a formula names a signal.
+/// Occurrence of a signal in a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Occurrence {
-    /// What is defined.
+    /// Signal defined by the formula.
     pub of: SignalId,
-    /// Whether this is in its reset, not in its formula.
+    /// Whether the occurrence is in the reset condition.
     pub in_reset: bool,
-    /// How many others stand to the left.
+    /// Number of occurrences to its left.
     pub at: usize,
 }
 
 impl<'s> Model<'s> {
-    /// The cone, its restrictions only as literals.
+    /// Encodes a cone; restrictions become literals and are not asserted.
     pub fn new(specification: &'s Specification, cone: Cone<'s>, outside: &Stop) -> Self {
         let left = Arc::new(AtomicU64::new(DECISIONS));
         let (budget, outer) = (Arc::clone(&left), Arc::clone(outside));
@@ -103,17 +104,17 @@ impl<'s> Model<'s> {
         model
     }
 
-    /// Whether whoever asks wants the work to end.
+    /// Whether the caller wants the work to end.
     pub fn is_stopped(&self) -> bool {
         (self.stop)()
     }
 
-    /// The signals with something changed.
+    /// Values of the signals after a change.
     pub fn changed(&mut self, change: Change) -> Values {
         self.computed(Some(change))
     }
 
-    /// What a formula says.
+    /// Literal of a formula.
     pub fn literal(&mut self, formula: &Formula) -> Literal {
         let seen = &self.values.seen;
         self.solver.formula(formula, &|signal| seen[signal.0])
@@ -150,7 +151,7 @@ impl<'s> Model<'s> {
             }
             values.seen[id.0] = seen;
         }
-        // Resets may name what is defined behind them.
+        // Reset conditions may use later definitions.
         for (id, keeps) in kept {
             let Kind::Defined { latched: Some(reset), .. } = &self.specification.signal(id).kind else { continue };
             let flipped = flipped(change, id, true);
@@ -167,7 +168,7 @@ impl<'s> Model<'s> {
 
     fn written(&mut self, formula: &Formula, seen: &[Literal], flipped: Option<usize>) -> Literal {
         let Some(flipped) = flipped else { return self.solver.formula(formula, &|signal| seen[signal.0]) };
-        // Signals become the numbers of their occurrences.
+        // Signals are renumbered by occurrence.
         let mut signals = Vec::new();
         let numbered = formula.map(&mut |signal| {
             signals.push(*signal);
@@ -179,26 +180,26 @@ impl<'s> Model<'s> {
         })
     }
 
-    /// Looks for a model of all this.
+    /// Searches for a model of these literals.
     pub fn ask(&mut self, wanted: &[Literal]) -> Answer {
         self.left.store(DECISIONS, Ordering::Relaxed);
         self.solver.solve(wanted)
     }
 
-    /// The same where restrictions are kept: all of the cone, or some.
+    /// As [`Model::ask`], under some restrictions.
     pub fn ask_keeping(&mut self, wanted: &[Literal], kept: &[(usize, Literal)]) -> Answer {
         let all: Vec<Literal> = wanted.iter().copied().chain(kept.iter().map(|kept| kept.1)).collect();
         self.ask(&all)
     }
 
-    /// Whether this can be where all restrictions are kept.
+    /// As [`Model::ask`], under all restrictions of the cone.
     pub fn ask_allowed(&mut self, wanted: &[Literal]) -> Answer {
         let kept = self.restrictions.clone();
         self.ask_keeping(wanted, &kept)
     }
 
-    /// The restrictions because of which this cannot be, after it could not: none of them can be left out, unless the solver
-    /// was stopped.
+    /// Minimal core of restrictions that exclude the literals, after the answer "unsatisfiable"; not minimal if the
+    /// solver is stopped.
     pub fn blame(&mut self, wanted: &[Literal], kept: &[(usize, Literal)]) -> Vec<usize> {
         let all: Vec<Literal> = wanted.iter().copied().chain(kept.iter().map(|kept| kept.1)).collect();
         let core = self.solver.core(&all);
@@ -215,15 +216,15 @@ impl<'s> Model<'s> {
         left.into_iter().map(|(at, _)| at).collect()
     }
 
-    /// The core of all restrictions, and an example: where something wanted is only excluded by them, a valuation in which it
-    /// is, excluded by as few as can be; else any that is allowed.
+    /// Minimal core of all restrictions, and an example: a valuation with the literals, if only restrictions exclude
+    /// them, violating as few as possible; else an allowed one.
     pub fn explained(&mut self, wanted: &[Literal], about: &[SignalId]) -> (Vec<usize>, Option<Example>) {
         let kept = self.restrictions.clone();
         let core = self.blame(wanted, &kept);
         (core.clone(), self.example(wanted, &core, &kept, about))
     }
 
-    /// The example for a core.
+    /// Example for a core.
     pub fn example(
         &mut self,
         wanted: &[Literal],
@@ -243,12 +244,12 @@ impl<'s> Model<'s> {
         is_found.then(|| self.told(about, core, true))
     }
 
-    /// What an input is in the model that was found last.
+    /// Value of an input in the model found last.
     pub fn is_true(&self, input: SignalId) -> bool {
         self.solver.value(self.values.seen[input.0])
     }
 
-    /// The model that was found last: these inputs, those of these restrictions, and what is remembered.
+    /// The model found last: these inputs, those of these restrictions, and the latched or delayed signals used.
     pub fn told(&self, about: &[SignalId], core: &[usize], is_excluded: bool) -> Example {
         let of = |at: &usize| inputs_of(self.specification, &self.specification.restrictions[*at].allowed);
         let mut signals = about.to_vec();
@@ -257,7 +258,7 @@ impl<'s> Model<'s> {
                 signals.push(signal);
             }
         }
-        // What is remembered counts where a formula uses it.
+        // A latched or delayed signal matters where a formula uses it.
         let mut used = FixedBitSet::with_capacity(self.memory.len());
         for id in &self.cone.definitions {
             if let Kind::Defined { formula, latched, .. } = &self.specification.signal(*id).kind {
@@ -275,7 +276,7 @@ impl<'s> Model<'s> {
     }
 }
 
-/// Which occurrence in a formula is negated.
+/// Position of the negated occurrence in a formula, if any.
 fn flipped(change: Option<Change>, of: SignalId, in_reset: bool) -> Option<usize> {
     match change {
         Some(Change::Occurrence(occurrence)) if occurrence.of == of && occurrence.in_reset == in_reset => {

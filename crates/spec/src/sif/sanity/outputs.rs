@@ -1,4 +1,4 @@
-//! Outputs that are always the same, and latched ones that are never reset.
+//! Constant outputs, and latched outputs that are never reset.
 
 use super::super::formula::SignalId;
 use super::super::solver::Answer;
@@ -6,15 +6,15 @@ use super::super::specification::{Kind, Place, Specification};
 use super::finding::{Doubt, Finding};
 use super::model::Model;
 
-/// The outputs of a function whose formula is always TRUE or always FALSE, as findings and by themselves. The latter are
-/// nothing if that is open; then there is no point in asking more.
+/// Constant outputs of a function, as findings and as a list. The list is `None` if a question is open; then further
+/// questions are pointless.
 pub fn constant(model: &mut Model<'_>, function: usize) -> (Vec<Finding>, Option<Vec<SignalId>>) {
     let (mut findings, mut constant) = (Vec::new(), Vec::new());
     let specification = model.specification;
     for &output in &specification.functions[function].outputs {
         let formula = model.values.formula[output.0];
         for value in [false, true] {
-            // Is it ever otherwise?
+            // Can the output have the other value?
             let wanted = [if value { !formula } else { formula }];
             let place = equation(specification, output);
             match model.ask_allowed(&wanted) {
@@ -44,7 +44,8 @@ pub fn constant(model: &mut Model<'_>, function: usize) -> (Vec<Finding>, Option
     (findings, Some(constant))
 }
 
-/// The latched outputs of a function, but for those that never change, that are never reset: the reset is FALSE, or does not count because what sets is TRUE.
+/// Latched outputs of a function, except constant ones, that are never reset: the reset condition is FALSE, or has no
+/// effect because the formula is TRUE.
 pub fn resets(model: &mut Model<'_>, function: usize, constant: &[SignalId]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let specification = model.specification;
@@ -69,7 +70,7 @@ pub fn resets(model: &mut Model<'_>, function: usize, constant: &[SignalId]) -> 
     findings
 }
 
-/// Where the equation of a signal stands.
+/// Place of a signal's equation.
 pub fn equation(specification: &Specification, id: SignalId) -> Place {
     match &specification.signal(id).kind {
         Kind::Defined { place, .. } => *place,

@@ -1,4 +1,4 @@
-//! Restrictions that contradict each other, that say nothing new, or that speak of nothing.
+//! Restrictions that contradict each other, are implied, or concern nothing.
 
 use fixedbitset::FixedBitSet;
 
@@ -10,21 +10,21 @@ use super::closed;
 use super::finding::{Doubt, Finding};
 use super::model::Model;
 
-/// Where restrictions can all be kept.
+/// Consistency of restrictions, by scope.
 pub struct Consistency {
-    /// Those of the whole system cannot, or it is open.
+    /// Whether the restrictions of the whole system are contradictory, or this is open.
     pub is_broken_everywhere: bool,
     zones: Vec<bool>,
     functions: Vec<bool>,
 }
 
 impl Consistency {
-    /// Whether a function has valuations at all.
+    /// Whether a function has allowed valuations.
     pub fn is_sound(&self, function: usize) -> bool {
         !self.functions[function]
     }
 
-    /// Whether what this restriction restricts has valuations.
+    /// Whether a scope has allowed valuations.
     fn is_sound_for(&self, scope: Scope) -> bool {
         match scope {
             Scope::System => !self.is_broken_everywhere,
@@ -34,7 +34,7 @@ impl Consistency {
     }
 }
 
-/// All restrictions, with what they speak of.
+/// Model of all restrictions, with the signals they mention.
 pub fn all<'s>(specification: &'s Specification, roots: Vec<SignalId>, stop: &Stop) -> Model<'s> {
     let mut signals = roots;
     let mut seen = specification.valuation(signals.iter().copied());
@@ -50,7 +50,7 @@ pub fn all<'s>(specification: &'s Specification, roots: Vec<SignalId>, stop: &St
     Model::new(specification, cone, stop)
 }
 
-/// Whether a restriction is kept by all that another scope is about.
+/// Whether a restriction of scope `outer` applies to everything in scope `inner`.
 pub fn covers(specification: &Specification, outer: Scope, inner: Scope) -> bool {
     match (outer, inner) {
         (Scope::System, _) => true,
@@ -59,12 +59,12 @@ pub fn covers(specification: &Specification, outer: Scope, inner: Scope) -> bool
     }
 }
 
-/// Those of these restrictions that are kept by all that a scope is about.
+/// Restrictions that apply to everything in a scope.
 pub fn kept(specification: &Specification, of: &[(usize, Literal)], scope: Scope) -> Vec<(usize, Literal)> {
     of.iter().copied().filter(|(at, _)| covers(specification, specification.restrictions[*at].scope, scope)).collect()
 }
 
-/// Restrictions that cannot all be kept: of the system, of a zone, of a function.
+/// Contradictory restrictions: of the system, of a zone, of a function.
 pub fn contradictions(specification: &Specification, stop: &Stop) -> (Vec<Finding>, Consistency) {
     let mut model = all(specification, Vec::new(), stop);
     let mut findings = Vec::new();
@@ -84,7 +84,7 @@ pub fn contradictions(specification: &Specification, stop: &Stop) -> (Vec<Findin
             Answer::Unsatisfiable => {
                 let core = model.blame(&[], &kept);
                 let place = core.first().map(|at| specification.restrictions[*at].place).unwrap_or_default();
-                // All of them but the last can be kept.
+                // All restrictions of the core but the last.
                 let rest: Vec<_> = kept
                     .iter()
                     .copied()
@@ -127,7 +127,7 @@ pub fn contradictions(specification: &Specification, stop: &Stop) -> (Vec<Findin
     (findings, state)
 }
 
-/// Restrictions that others imply. From the last to the first, so that all that are found can be left out at once.
+/// Implied restrictions, from the last to the first, so that all reported ones can be removed at once.
 pub fn implied(specification: &Specification, state: &Consistency, stop: &Stop) -> Vec<Finding> {
     let mut model = all(specification, Vec::new(), stop);
     let mut left = model.restrictions.clone();
@@ -159,7 +159,7 @@ pub fn implied(specification: &Specification, state: &Consistency, stop: &Stop) 
     findings
 }
 
-/// Restrictions that have to do with no function, where `touched` are those that do.
+/// Restrictions that concern no function; `touched` are those that do.
 pub fn apart(specification: &Specification, touched: &FixedBitSet) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (at, restriction) in specification.restrictions.iter().enumerate() {

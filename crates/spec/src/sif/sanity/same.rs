@@ -1,6 +1,6 @@
-//! Outputs that are the same function, or opposites.
+//! Outputs that are equivalent, or complementary.
 //!
-//! Most pairs are told apart by valuations: what the solver finds for one pair is kept for all others, with neighbours of it
+//! Most pairs are refuted by valuations: each model found for one pair is kept for all others, with neighbours of it
 //! (Kuehlmann, "Dynamic transition relation simplification for bounded property checking", 2004).
 
 use super::super::formula::SignalId;
@@ -11,8 +11,8 @@ use super::model::Model;
 use super::outputs::equation;
 use super::restrictions::{all, kept};
 
-/// Pairs of outputs that are always the same or never, where all restrictions are kept that are about both. Outputs that are
-/// latched, delayed, or never change, are left out, and those of functions that nothing can be said of.
+/// Pairs of outputs that are always equal or always opposite under all restrictions that apply to both. Latched,
+/// delayed or constant outputs are skipped, and so are functions with open questions or contradictory restrictions.
 pub fn outputs(
     specification: &Specification,
     is_left: impl Fn(usize) -> bool,
@@ -86,7 +86,7 @@ pub fn outputs(
     findings
 }
 
-/// What is about two functions at once.
+/// Smallest scope that contains two functions.
 pub fn common(specification: &Specification, a: usize, b: usize) -> Scope {
     let zone = specification.functions[a].zone.filter(|zone| specification.functions[b].zone == Some(*zone));
     match zone {
@@ -96,15 +96,15 @@ pub fn common(specification: &Specification, a: usize, b: usize) -> Scope {
     }
 }
 
-/// Valuations, 64 at a time.
+/// Sample of valuations, in words of 64.
 struct Samples<'s> {
     specification: &'s Specification,
-    /// For each 64 valuations, one word per signal.
+    /// Words of the signals for each 64 valuations.
     words: Vec<Vec<u64>>,
-    /// And where all restrictions are kept: of the system, of each zone, of each function.
+    /// Valuations allowed by the restrictions of the system, of each zone, and of each function.
     allowed: Vec<(u64, Vec<u64>, Vec<u64>)>,
     inputs: Vec<SignalId>,
-    /// Where the neighbours come from; the same in every run.
+    /// State of the random number generator; the seed is fixed.
     lot: u64,
 }
 
@@ -114,7 +114,7 @@ impl<'s> Samples<'s> {
         Self { specification, words: Vec::new(), allowed: Vec::new(), inputs, lot: 0x9E37_79B9_7F4A_7C15 }
     }
 
-    /// A number by chance (Marsaglia, "Xorshift RNGs", 2003).
+    /// Random number (Marsaglia, "Xorshift RNGs", 2003).
     fn draw(&mut self) -> u64 {
         self.lot ^= self.lot << 13;
         self.lot ^= self.lot >> 7;
@@ -122,7 +122,7 @@ impl<'s> Samples<'s> {
         self.lot
     }
 
-    /// Takes the model that was found last, and 63 valuations in which some inputs are otherwise.
+    /// Adds the model found last, and 63 valuations that differ from it in some inputs.
     fn take(&mut self, model: &Model<'_>) {
         let specification = self.specification;
         let mut words = vec![0_u64; specification.signals.len()];
@@ -152,7 +152,7 @@ impl<'s> Samples<'s> {
         self.allowed.push(allowed);
     }
 
-    /// Whether a valuation that is allowed shows that two outputs are not always the same, or not always opposites.
+    /// Whether an allowed valuation refutes that two outputs are always equal, or always opposite.
     fn refute(&self, a: SignalId, b: SignalId, same: bool, scope: Scope) -> bool {
         let mut of = self.words.iter().zip(&self.allowed);
         of.any(|(words, (system, zones, functions))| {

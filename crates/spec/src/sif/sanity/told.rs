@@ -5,11 +5,11 @@ use super::super::specification::Specification;
 use super::finding::{Doubt, Example, Finding};
 use petril_base::diagnostic::{Code, Diagnostic};
 
-/// So many names are said before the rest is only counted.
+/// Upper bound on names listed; the others are counted.
 const NAMED: usize = 12;
 
 impl Finding {
-    /// The warning, for the file where the finding is.
+    /// The finding as a warning, for the file of its place.
     #[must_use]
     pub fn diagnostic(&self, specification: &Specification) -> Diagnostic {
         let told = Told { finding: self, specification };
@@ -28,7 +28,7 @@ impl Finding {
 }
 
 impl Doubt {
-    /// Its code.
+    /// Diagnostic code.
     #[must_use]
     pub fn code(self) -> Code {
         match self {
@@ -67,13 +67,13 @@ impl Told<'_> {
         self.finding.formula.as_ref().map(|formula| self.specification.text(formula)).unwrap_or_default()
     }
 
-    /// The names of restrictions, without the first so many.
+    /// Names of the restrictions, without the first `without` ones.
     fn restrictions(&self, without: usize) -> Vec<String> {
         let names = self.finding.restrictions.iter().skip(without).map(|at| &self.specification.restrictions[*at].name);
         names.map(|name| format!("`{name}`")).collect()
     }
 
-    /// ` under R1 and R2`, or nothing.
+    /// ` under R1 and R2`, or empty.
     fn under(&self) -> String {
         match self.restrictions(0).as_slice() {
             [] => String::new(),
@@ -143,7 +143,7 @@ impl Told<'_> {
         }
     }
 
-    /// What an example shows.
+    /// Sentence about an example.
     fn example(&self, example: &Example) -> String {
         let valuation = valuation(self.specification, &example.values);
         if self.finding.doubt == Doubt::Contradiction {
@@ -183,7 +183,7 @@ impl Told<'_> {
     }
 }
 
-/// Values in words: what is TRUE, and what is FALSE, both named if they are few.
+/// Valuation in words: signals that are TRUE, and those that are FALSE, listed if they are few.
 fn valuation(specification: &Specification, values: &[(SignalId, bool)]) -> String {
     let of = |value: bool| -> Vec<String> {
         let signals = values.iter().filter(|(_, has)| *has == value);
