@@ -15,7 +15,7 @@ const ROW: i32 = 100;
 /// Distance between the first node and both edges.
 const MARGIN: i32 = 60;
 
-    /// Places the nodes of a system.
+/// Places the nodes of a system.
 #[must_use]
 pub fn positions(system: &System) -> Positions {
     let control = Control::of(system);
@@ -29,7 +29,7 @@ pub fn positions(system: &System) -> Positions {
     let places = system.net.place_ids().zip(&system.places).map(|(place, &role)| match role {
         PlaceRole::Result { bit, value } => point(bits + usize::from(value), 2 * bit as usize),
         PlaceRole::Bit { value, .. } | PlaceRole::Register { value, .. } => {
-                // The two places of a bit follow each other.
+            // The two places of a bit follow each other.
             pairs += usize::from(!value);
             point(bits + usize::from(value), 2 * (pairs - 1))
         }

@@ -4,7 +4,7 @@ use petril_base::source::Source;
 use petril_check::translate::{Part, PlaceRole, System, TransitionRole};
 use petril_net::format::pnml::{Note, Notes};
 
-    /// Meaning of the nodes of a system net; `source` is the program's text. Lines of code and of text count from 1.
+/// Meaning of the nodes of a system net; `source` is the program's text. Lines of code and of text count from 1.
 #[must_use]
 pub fn notes(system: &System, source: &Source) -> Notes {
     let places = system.places.iter().map(|&role| place(system, source, role)).collect();

@@ -27,7 +27,7 @@ pub const EXAMPLES: [(&str, &str); 16] = [
 
 /// The folder in which the names of examples mean something.
 pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("the project is two folders above").to_path_buf()
 }
 
 /// A schema of the project, made stricter: members that it does not know are errors. So nothing is reported that is not

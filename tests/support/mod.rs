@@ -1,5 +1,5 @@
-//! What several tests share.
-#![allow(dead_code, reason = "each test uses a part")]
+//! Random programs and nets, textbook versions, and oracles that the tests share.
+#![allow(missing_docs, reason = "names of tests say what is meant")]
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
 pub mod agreement;
@@ -12,6 +12,7 @@ pub mod forms;
 pub mod growing_net;
 pub mod indifference;
 pub mod naive_ctl;
+pub mod naive_faults;
 pub mod naive_ltl;
 pub mod naive_nets;
 pub mod naive_partial;

@@ -1,7 +1,8 @@
 //! The real program, run in a folder and never for long.
 
+use std::env;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -20,9 +21,16 @@ pub struct Run {
     pub stderr: String,
 }
 
+/// The program that cargo built beside the tests.
+pub fn program() -> PathBuf {
+    let test = env::current_exe().expect("a test knows its own file");
+    let folder = test.ancestors().nth(2).expect("tests are in `deps`");
+    folder.join("petril").with_extension(env::consts::EXE_EXTENSION)
+}
+
 /// Runs `petril` in a folder. A run that takes too long, or dies of a signal, fails the test.
 pub fn petril<S: AsRef<str>>(folder: &Path, arguments: &[S]) -> Run {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_petril"));
+    let mut command = Command::new(program());
     command.args(arguments.iter().map(AsRef::as_ref)).current_dir(folder).env("PETRIL_CACHE_KEY", KEY);
     run(command)
 }

@@ -1,0 +1,5 @@
+//! Sessions at the command line, projects, and limits.
+
+mod cli;
+mod limits;
+mod projects;
