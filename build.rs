@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Files and folders the program is made of. Uncommitted changes of these are named.
-const MADE_OF: [&str; 6] = ["src", "grammar", "docs/codes", "Cargo.toml", "Cargo.lock", "build.rs"];
+const MADE_OF: [&str; 7] = ["src", "crates", "grammar", "docs/codes", "Cargo.toml", "Cargo.lock", "build.rs"];
 
 fn main() {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());

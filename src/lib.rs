@@ -4,9 +4,9 @@
 //! PLC's cycle and a model of the plant. All its reachable states are explored, and requirements in CTL are checked on them.
 //!
 //! ```
-//! use petril::{diagnostic::any_error, flat, logic, semantics, source::Source, syntax, translate, verdict};
+//! use petril::{Check, source::Source, verdict::Verdict};
 //!
-//! let source = Source::new("starter.il", "
+//! let starter = Source::new("starter.il", "
 //!     PROGRAM starter
 //!     VAR_INPUT  Start, Stop : BOOL; END_VAR
 //!     VAR_OUTPUT Motor : BOOL; END_VAR
@@ -15,22 +15,14 @@
 //!         ANDN Stop
 //!         ST   Motor
 //!     END_PROGRAM");
-//! let (unit, errors) = syntax::parse(&source);
-//! let (program, warnings) = semantics::check(&unit, !any_error(&errors));
-//! let program = flat::flatten(&program.expect("the program has no errors"));
 //!
 //! // No plant: Start and Stop may have any value in any scan.
-//! let system = translate::System::new(program, translate::Plant::default());
-//!
-//! let check = |formula: &str| {
-//!     let view = logic::View::Scan;
-//!     let requirement = logic::parse_requirement("r1", &Source::new("formula", formula)).expect("a formula");
-//!     let bound = logic::bind_requirement(&requirement, &system, view).expect("names the program has");
-//!     let options = verdict::Options { view, ..Default::default() };
-//!     verdict::check(&system, &[(requirement, bound)], &options, &mut |_| None)
-//! };
-//! assert_eq!(check("AG (Stop -> !Motor)").verdict(), verdict::Verdict::Holds);
-//! assert_eq!(check("AG (Motor -> Start)").verdict(), verdict::Verdict::Violated);
+//! let check = Check::of(&starter)?;
+//! let holds = check.clone().require("stops", "AG (Stop -> !Motor)")?.run(&mut |_| None);
+//! assert_eq!(holds.verdict(), Verdict::Holds);
+//! let violated = check.require("waits", "AG (Motor -> Start)")?.run(&mut |_| None);
+//! assert_eq!(violated.verdict(), Verdict::Violated);
+//! # Ok::<(), Vec<petril::diagnostic::Diagnostic>>(())
 //! ```
 //!
 //! `docs/architecture.md` says what the modules are for and in which order they stand; `docs/semantics.md` what exactly is
@@ -40,7 +32,7 @@ pub mod draw;
 pub mod exchange;
 
 pub use petril_base::{diagnostic, printable, source};
-pub use petril_check::{simulate, translate, witness};
+pub use petril_check::{Check, simulate, translate, witness};
 pub use petril_lang::{flat, interpret, semantics, syntax};
 pub use petril_net::{net, structure};
 pub use petril_spec::sif;

@@ -1,5 +1,5 @@
 //! Sessions at the command line, in `tests/cli/*.md` and in the guides. To write what is printed now into them:
-//! `TRYCMD=overwrite cargo test --test cli`. Then read them. (The guides leave parts out; put their `...` and `[..]` back.)
+//! `TRYCMD=overwrite cargo test --test command_line cli`. Then read them. (The guides leave parts out; put their `...` and `[..]` back.)
 
 #[test]
 fn sessions_go_as_shown() {

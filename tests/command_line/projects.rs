@@ -469,7 +469,7 @@ fn what_the_clock_has_ended_is_not_kept() {
     assert!(!folder.path().join(".petril-cache").exists() || kept(&folder.path().join(".petril-cache")).is_empty());
 }
 
-/// To write what is printed now into the guide: `PETRIL_BLESS=1 cargo test --test projects`. Then read it.
+/// To write what is printed now into the guide: `PETRIL_BLESS=1 cargo test --test command_line projects`. Then read it.
 #[test]
 fn the_guide_shows_what_is_printed() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/projects.md");

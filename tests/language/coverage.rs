@@ -1,7 +1,7 @@
 //! `docs/coverage.md`: what becomes of every public program in the folder that `PETRIL_DATA` names. Without it there is
 //! nothing to test here.
 //!
-//! To write the document: `PETRIL_BLESS=1 PETRIL_DATA=… cargo test --test coverage`.
+//! To write the document: `PETRIL_BLESS=1 PETRIL_DATA=… cargo test --test language coverage`.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ const HEAD: &str = "# Coverage
 
 Every public Instruction List program that we hold, and what `petril flat` says of it: how many lines of flat code it
 becomes, or why it is refused. `(n more)` counts further errors of the same file. The programs are not part of this
-project; the table is written and checked by `cargo test --test coverage`.
+project; the table is written and checked by `cargo test --test language coverage`.
 ";
 
 /// The files of a folder with one of these endings, and of its folders, in order.

@@ -3,7 +3,7 @@
 //!
 //! A page ends with the text mended; there the code is no longer reported.
 //!
-//! To write what is said now into the documents: `PETRIL_BLESS=1 cargo test --test diagnostics`. Then read them.
+//! To write what is said now into the documents: `PETRIL_BLESS=1 cargo test --test language diagnostics`. Then read them.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::collections::BTreeSet;

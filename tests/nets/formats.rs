@@ -1,6 +1,6 @@
 //! Nets in all formats: `docs/nets.md` shows one in each, and what is written is read by readers of its own.
 //!
-//! To write what is written now into the document: `PETRIL_BLESS=1 cargo test --test formats`. Then read it.
+//! To write what is written now into the document: `PETRIL_BLESS=1 cargo test --test nets formats`. Then read it.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use std::collections::BTreeMap;

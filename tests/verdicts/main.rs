@@ -4,6 +4,7 @@ mod answers;
 mod examples;
 mod known;
 mod recorded;
+mod refused;
 mod sessions;
 mod stories;
 mod tampered_traces;

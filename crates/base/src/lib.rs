@@ -1,4 +1,4 @@
-//! Foundation of all crates: texts with positions, diagnostics as data, XML, ids, and the elementary data types.
+#![doc = include_str!("../README.md")]
 
 pub mod diagnostic;
 mod ids;

@@ -1,8 +1,4 @@
-//! PLC programs: syntax, static semantics, flat code, and the interpreter, which defines the meaning of a program.
-//!
-//! ```text
-//! text ──syntax──▶ AST ──semantics──▶ Program ──flat──▶ FlatProgram ──interpret──▶ values after each scan
-//! ```
+#![doc = include_str!("../README.md")]
 
 pub mod circuit;
 pub mod flat;

@@ -138,28 +138,6 @@ impl Bound {
         }
     }
 
-    /// Calls `visit` with every place whose tokens occur in the formula, once for each occurrence.
-    pub fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
-        match self {
-            Self::Truth(_) | Self::Variable(_) | Self::Bit(..) | Self::Enabled(_) | Self::Deadlock => {}
-            Self::Marked(place) => visit(*place),
-            Self::Compare(_, left, right) => {
-                left.for_each_place(visit);
-                right.for_each_place(visit);
-            }
-            Self::Not(f) | Self::Next(_, f) => f.for_each_place(visit),
-            Self::And(f, g)
-            | Self::Or(f, g)
-            | Self::Implies(f, g)
-            | Self::Iff(f, g)
-            | Self::Until { hold: f, release: g, .. } => {
-                f.for_each_place(visit);
-                g.for_each_place(visit);
-            }
-            Self::Ltl(path) => path.atoms().into_iter().for_each(|atom| atom.for_each_place(visit)),
-        }
-    }
-
     /// Evaluates the formula in a state. `None` if the result depends on a temporal part.
     pub fn holds_in(&self, state: &impl Valuation) -> Option<bool> {
         Some(match self {
@@ -196,19 +174,6 @@ impl Term {
             Self::Difference(a, b) => a.value_in(state)? - b.value_in(state)?,
             Self::Product(a, b) => a.value_in(state)? * b.value_in(state)?,
         })
-    }
-
-    fn for_each_place(&self, visit: &mut dyn FnMut(PlaceId)) {
-        match self {
-            Self::Number(_) | Self::Variable(..) | Self::Past(_) => {}
-            Self::Bits { places, .. } => places.iter().for_each(|&(place, _)| visit(place)),
-            Self::Tokens(place) => visit(*place),
-            Self::Truth(f) => f.for_each_place(visit),
-            Self::Sum(a, b) | Self::Difference(a, b) | Self::Product(a, b) => {
-                a.for_each_place(visit);
-                b.for_each_place(visit);
-            }
-        }
     }
 
     /// Upper bound on the absolute value; `None` if an `i128` has no room for one more operation on it.

@@ -1,14 +1,7 @@
-//! Requirements: CTL and LTL formulas over program variables, or over places and transitions, and their evaluation on a
-//! graph.
-//!
-//! ```text
-//! text ──parse──▶ Formula ──bind──▶ Bound ──dag──▶ Dag ──label──▶ sets of states ──evidence──▶ a path or lasso
-//!                                     └──ltl──▶ an automaton beside the graph ──search─────────────────▲
-//! ```
-//!
-//! Under fairness, only fair paths are considered: see [`Fairness`].
+#![doc = include_str!("../README.md")]
 
 mod along;
+mod atoms;
 mod bind;
 mod bound;
 mod dag;
@@ -32,6 +25,7 @@ mod vacuity;
 mod view;
 
 pub use along::along;
+pub use atoms::Atom;
 pub use bind::{Name, Nodes, ScanTime, Spot, Vocabulary, bind_in_net, bind_names};
 pub use bound::{Bound, Term, Valuation};
 pub use dag::{Dag, Node, NodeId};

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use super::bound::{Bound, Term};
-use super::past::Past;
+use super::atoms::Atom;
+use super::bound::Bound;
 use petril_base::VarId;
 
-/// Variables and numbers of a formula bound for the scan view.
+/// Variables and numbers of a formula.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Mentions {
     /// Variables of the formula.
@@ -20,41 +20,11 @@ impl Bound {
     #[must_use]
     pub fn mentions(&self) -> Mentions {
         let mut mentions = Mentions::default();
-        mentions.add(self);
+        self.for_each_atom(&mut |atom| match atom {
+            Atom::Variable(variable) | Atom::Word(variable) => _ = mentions.variables.insert(variable),
+            Atom::Number(number) => _ = mentions.numbers.insert(number),
+            Atom::Place(_) | Atom::Enabled(_) | Atom::Deadlock | Atom::Past => {}
+        });
         mentions
-    }
-}
-
-impl Mentions {
-    fn add(&mut self, formula: &Bound) {
-        match formula {
-            Bound::Truth(_) | Bound::Marked(_) | Bound::Enabled(_) | Bound::Deadlock => {}
-            Bound::Variable(variable) | Bound::Bit(variable, _) => _ = self.variables.insert(*variable),
-            Bound::Compare(_, left, right) => [left, right].into_iter().for_each(|term| self.add_term(term)),
-            Bound::Not(f) | Bound::Next(_, f) => self.add(f),
-            Bound::And(f, g) | Bound::Or(f, g) | Bound::Implies(f, g) | Bound::Iff(f, g) => {
-                [f, g].into_iter().for_each(|part| self.add(part));
-            }
-            Bound::Until { hold, release, .. } => [hold, release].into_iter().for_each(|part| self.add(part)),
-            Bound::Ltl(path) => path.atoms().into_iter().for_each(|atom| self.add(atom)),
-        }
-    }
-
-    fn add_term(&mut self, term: &Term) {
-        match term {
-            Term::Number(number) => _ = self.numbers.insert(*number),
-            Term::Variable(variable, _) | Term::Bits { variable, .. } => _ = self.variables.insert(*variable),
-            Term::Tokens(_) => {}
-            Term::Past(past) => match &**past {
-                Past::First => {}
-                Past::Before(term) => self.add_term(term),
-                Past::Since(f, g) => [f, g].into_iter().for_each(|part| self.add(part)),
-                Past::Run { of, .. } => self.add(of),
-            },
-            Term::Truth(f) => self.add(f),
-            Term::Sum(a, b) | Term::Difference(a, b) | Term::Product(a, b) => {
-                [a, b].into_iter().for_each(|term| self.add_term(term));
-            }
-        }
     }
 }

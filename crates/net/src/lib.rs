@@ -1,5 +1,4 @@
-//! Place/transition nets: the net and its token game, what can be said of it without exploring it, an engine that explores
-//! it, questions about it, and the formats of other tools.
+#![doc = include_str!("../README.md")]
 
 pub mod engine;
 pub mod format;

@@ -1,5 +1,4 @@
-//! State spaces without any language: the seam between what has states and what explores them, a packed store, a
-//! breadth-first search, the graph it leaves, its strongly connected components, and products with a memory.
+#![doc = include_str!("../README.md")]
 
 mod budget;
 mod components;

@@ -1,3 +1,3 @@
-//! Specifications of programs: safety functions, their sanity, tests made of them, and proofs.
+#![doc = include_str!("../README.md")]
 
 pub mod sif;

@@ -11,6 +11,7 @@ use super::fairness::Fair;
 use super::independence::{Independence, independence};
 use super::news::{InOrder, Tell};
 use super::premises::{Occurrence, occurrence};
+use super::refused::refused;
 use super::remarks::remarks;
 use super::remembering::RememberingView;
 use super::views::{ScanView, SystemView, TransitionView, witness};
@@ -55,8 +56,9 @@ impl Default for Options {
     }
 }
 
-/// Explores a system and decides the requirements, which must have been bound for the view. `watch` can end the
-/// exploration; whatever the explored part decides is then decided.
+/// Explores a system and decides the requirements. `watch` can end the exploration; whatever the explored part decides is
+/// then decided. A requirement that was bound for the other view, or for a system with other variables and places, makes
+/// the check be refused: all answers are unknown.
 #[must_use]
 pub fn check(
     system: &System,
@@ -76,6 +78,9 @@ pub fn check_aloud(
     watch: &mut dyn FnMut(&Progress) -> Option<String>,
     tell: Option<Tell<'_>>,
 ) -> Report {
+    if let Some(report) = refused(system, requirements, options) {
+        return report;
+    }
     let told = InOrder::new(tell);
     match options.view {
         View::Scan => check_scans(system, requirements, options, watch, &told),
@@ -288,7 +293,7 @@ fn check_markings(
 }
 
 /// Builds a report without answers.
-fn report(
+pub(super) fn report(
     system: &System,
     requirements: &[(Requirement, Demand)],
     options: &Options,

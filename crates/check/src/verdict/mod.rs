@@ -18,6 +18,7 @@ mod news;
 mod on_paths;
 mod possible;
 mod premises;
+mod refused;
 mod remarks;
 mod remembering;
 mod scan_ends;

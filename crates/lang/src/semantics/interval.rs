@@ -20,7 +20,23 @@ pub fn of(unit: &Unit, program: &Name, found: &mut Vec<Diagnostic>) -> Option<u6
         found.push(Diagnostic::new(Code::TaskUnfit, name.span, message));
         return None;
     };
-    interval(task, found)
+    let first = interval(task, found);
+    // One scan time stands for the program: timers would count another one differently.
+    for (other, task) in tasks.filter_map(|(name, task)| Some((name, task?))) {
+        let its = interval(task, &mut Vec::new());
+        if its != first {
+            let text = |interval: Option<u64>| interval.map_or("no interval".to_owned(), |ms| format!("{ms} ms"));
+            let message =
+                format!("instances of `{}` run in tasks of {} and of {}", program.text, text(first), text(its));
+            found.push(
+                Diagnostic::new(Code::TaskUnfit, other.span, message)
+                    .also(name.span, "the first instance runs in this task")
+                    .help("leave the instance that is to be checked, and remove the others"),
+            );
+            break;
+        }
+    }
+    first
 }
 
 fn interval(task: &Task, found: &mut Vec<Diagnostic>) -> Option<u64> {

@@ -9,7 +9,7 @@ use super::condition::Condition;
 use crate::engine::{Exploration, View};
 use crate::net::{PlaceId, TransitionId};
 use petril_base::VarId;
-use petril_logic::{Bound, Dag, Node, Valuation};
+use petril_logic::{Atom, Bound, Dag, Node, Valuation};
 
 /// Atomic propositions with the sets of states that satisfy them.
 pub(super) struct Atoms<'d> {
@@ -38,7 +38,8 @@ impl<'d> Atoms<'d> {
             }
         }
         let mut places: Vec<PlaceId> = Vec::new();
-        formulas.iter().for_each(|formula| formula.for_each_place(&mut |place| places.push(place)));
+        let mut note = |atom| places.extend(if let Atom::Place(place) = atom { Some(place) } else { None });
+        formulas.iter().for_each(|formula| formula.for_each_atom(&mut note));
         places.sort_unstable();
         places.dedup();
         let states = exploration.kept();

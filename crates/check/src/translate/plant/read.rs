@@ -9,7 +9,7 @@ use super::{Plant, markings};
 use crate::translate::valuation::{self, Assignment, Value};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
-use petril_lang::flat::{FlatProgram, Variable};
+use petril_lang::flat::FlatProgram;
 use petril_lang::semantics::{Role, VarId};
 use petril_net::net::{Arcs, Located, PlaceId, TransitionId};
 
@@ -158,14 +158,17 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
             let message = "a place cannot stand for inputs and outputs at once".to_owned();
             return Err(unfit(message).help("give the inputs a place, and read the outputs by another"));
         }
-        match pattern(program.variable(variable), value) {
+        match pattern(program, variable, value) {
             Some(pattern) => values.push((variable, pattern)),
             None => {
                 let help = if program.variable(variable).ty.is_bool() {
                     "name the place like `S1=1,O1=0`, or without `=` if it is internal".to_owned()
                 } else {
-                    let ty = program.variable(variable).ty;
-                    format!("`{written}` is of type {ty}: its values are {} to {}", ty.least(), ty.greatest())
+                    let (least, greatest) = program.range(variable);
+                    format!(
+                        "`{written}` is of type {}: its values are {least} to {greatest}",
+                        program.variable(variable).ty
+                    )
                 };
                 return Err(unfit(format!("`{text}` gives no input or output a value")).help(help));
             }
@@ -183,11 +186,13 @@ fn meaning(file: &Located, place: PlaceId, program: &FlatProgram, position: usiz
 }
 
 /// Pattern of a value, if the variable can have it.
-fn pattern(variable: &Variable, value: Value) -> Option<u64> {
+fn pattern(program: &FlatProgram, id: VarId, value: Value) -> Option<u64> {
+    let variable = program.variable(id);
     let ty = variable.ty;
+    let (least, greatest) = program.range(id);
     let number = match value {
         Value::Truth(truth) => Some(i128::from(truth)).filter(|_| ty.is_bool())?,
-        Value::Number(number) => Some(number).filter(|&number| ty.holds(number))?,
+        Value::Number(number) => Some(number).filter(|number| (least..=greatest).contains(number))?,
     };
     let pattern = ty.pattern(number);
     // Bits that are not stored are 0.
