@@ -41,8 +41,8 @@ impl Verb {
     /// The limits on the work, if it is not a session of somebody at a terminal.
     pub fn bounds(&self) -> Option<Bounds> {
         Some(match self {
-            // Each check has its own time.
-            Self::Check(check) if check.watch || check.program.is_none() => {
+            // Each program has its own time.
+            Self::Check(check) if check.program.is_none() => {
                 Bounds { timeout: None, ..check.limits.bounds() }
             }
             Self::Check(check) => check.limits.bounds(),
@@ -54,7 +54,8 @@ impl Verb {
             Self::Net(NetVerb::Info(info)) => info.on.limits.bounds(),
             Self::Net(NetVerb::Check(check)) => check.on.limits.bounds(),
             Self::Net(NetVerb::Explore(on)) => on.limits.bounds(),
-            Self::Net(NetVerb::Reduce(_) | NetVerb::Convert(_)) => Bounds::default(),
+            Self::Net(NetVerb::Reduce(reduce)) => reduce.bounds,
+            Self::Net(NetVerb::Convert(convert)) => convert.bounds,
             Self::Sif(verb) => verb.bounds(),
             Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man(_) => return None,
         })

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use petril::diagnostic::{Diagnostic, Style, render};
 use petril::exchange::{Provenance, json};
@@ -14,7 +14,8 @@ use petril::source::Source;
 use serde_json::Value;
 
 use super::args::When;
-use super::seen::{Seen, sha256};
+use super::origin::Origin;
+use super::seen::Seen;
 use super::{Failure, Outcome, SUCCESS, guard, output, reason};
 
 /// How many diagnostics of one file are printed. The first ones are the ones to mend.
@@ -36,12 +37,7 @@ pub struct Console {
     colour: When,
     /// Stands behind the escape of a colour until it is printed. It is another one in each run, so that no text has it.
     mark: String,
-    /// What was seen of the file system.
-    seen: Mutex<Seen>,
-    /// Files read before, by whoever this console reports to.
-    read_before: Vec<(String, String)>,
-    /// Hash of the options of the command line.
-    options: Mutex<String>,
+    origin: Arc<Origin>,
 }
 
 /// What one of several consoles was told.
@@ -76,24 +72,23 @@ impl Console {
             held: None,
             colour,
             mark: format!("{:016x}", RandomState::new().build_hasher().finish()),
-            seen: Mutex::default(),
-            read_before: Vec::new(),
-            options: Mutex::default(),
+            origin: Arc::default(),
         }
     }
 
-    /// The command line asks for this.
+    /// Notes that the command line asks for this.
     pub fn has_options(&self, options: &dyn fmt::Debug) {
-        *lock(&self.options) = sha256(format!("{options:?}").as_bytes());
+        self.origin.has_options(options);
     }
 
     /// Where a report comes from that is made now.
     pub fn provenance(&self) -> Provenance {
-        let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-        let mut inputs = self.read_before.clone();
-        inputs.extend(lock(&self.seen).inputs());
-        let command = std::iter::once("petril".to_owned()).chain(words).collect();
-        Provenance { command, inputs, options: lock(&self.options).clone() }
+        self.origin.provenance()
+    }
+
+    /// Where the reports come from.
+    pub fn origin(&self) -> Arc<Origin> {
+        Arc::clone(&self.origin)
     }
 
     /// When this uses colours.
@@ -103,36 +98,36 @@ impl Console {
 
     /// A console that keeps everything to itself until it is told to this one.
     pub fn holding(colour: When, read_before: Vec<(String, String)>) -> Self {
-        Self { held: Some(Mutex::default()), read_before, ..Self::new(colour) }
+        Self { held: Some(Mutex::default()), origin: Arc::new(Origin::after(read_before)), ..Self::new(colour) }
     }
 
     /// What was told to a console that keeps it.
     pub fn told(self) -> Told {
         let messages = self.held.map(inner).unwrap_or_default();
-        Told { messages, diagnostics: inner(self.printed), seen: inner(self.seen) }
+        Told { messages, diagnostics: inner(self.printed), seen: std::mem::take(&mut *self.origin.seen()) }
     }
 
     /// Prints what another one was told.
     pub fn tell(&self, told: Told) {
         self.write(&told.messages);
         lock(&self.printed).extend(told.diagnostics);
-        lock(&self.seen).extend(told.seen);
+        self.origin.seen().extend(told.seen);
     }
 
     /// A file was read, or could not be.
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
         output::has_read(path);
-        lock(&self.seen).file(path, bytes);
+        self.origin.seen().file(path, bytes);
     }
 
     /// A pattern matched these files.
     pub fn has_matched(&self, pattern: &str, files: &[PathBuf]) {
-        lock(&self.seen).pattern(pattern, files);
+        self.origin.seen().pattern(pattern, files);
     }
 
     /// What was seen of the file system since this was last asked.
     pub fn take_seen(&self) -> Seen {
-        std::mem::take(&mut *lock(&self.seen))
+        std::mem::take(&mut *self.origin.seen())
     }
 
     /// Prints the diagnostics of a file, most of them, each with an empty line behind it.

@@ -14,7 +14,7 @@ use super::net_explore::threads;
 use super::net_structure::Structure;
 use super::progress::Watcher;
 use super::report::counted;
-use super::{Outcome, SUCCESS, guard, input};
+use super::{Outcome, SUCCESS, input, phase};
 
 /// Nodes named in a line of text, at most.
 pub const NAMED: usize = 20;
@@ -30,7 +30,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let watcher = Watcher::new(&on.limits)?;
     let (located, _) = input::net(&on.model, console)?;
     let net = if on.json { located.net } else { located.net.into_printable() };
-    guard::phase("looking at the structure of the net");
+    phase::begin("looking at the structure of the net");
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };
     // A marking of a large net takes a long time in itself.
@@ -39,7 +39,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         watcher.finish();
         return unexplored(&structure, &net, arguments, console);
     }
-    guard::phase("exploring the net");
+    phase::begin_asking("exploring the net");
     let options = Options { budget: on.limits.budget_of(STATES), threads: threads(&on.limits), keep: true };
     let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);
     let second = second_token(&net, &exploration);

@@ -60,7 +60,6 @@ impl Watcher {
     /// Sets the number of threads, and begins to watch.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
-        guard::listen();
         sign_of_life::begin();
         // Drawn on standard error, and only if that is a terminal.
         Self::drawing(limits, ProgressDrawTarget::stderr(), true)

@@ -7,6 +7,7 @@ mod keys;
 mod programs;
 mod run;
 mod summary;
+mod workers;
 
 pub use given::given;
 pub use run::run;

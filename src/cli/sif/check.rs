@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::args::SifCheck;
 use super::specification;
 use crate::cli::console::Console;
-use crate::cli::{Outcome, SUCCESS, guard, report::counted};
+use crate::cli::{Outcome, SUCCESS, guard, phase, report::counted};
 
 /// What is said instead of a number.
 const TOO_MANY: &str = "more than can be counted";
@@ -21,13 +21,12 @@ const TOO_MANY: &str = "more than can be counted";
 pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     let read = specification(&arguments.specification, console)?;
     let specification = &read.specification;
-    guard::listen();
     let stop: Stop = Arc::new(guard::is_asked);
     // Counting is limited by itself, and questions may take all the time there is.
-    guard::phase("counting valuations");
+    phase::begin_asking("counting valuations");
     let counts: Vec<Vec<Counts>> =
         (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
-    guard::phase("asking whether the specification makes sense");
+    phase::begin_asking("asking whether the specification makes sense");
     let findings = check(specification, &stop);
     for (file, source) in read.sources.iter().enumerate() {
         let here = findings.iter().filter(|finding| finding.place.file == file);

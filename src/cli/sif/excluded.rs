@@ -9,13 +9,13 @@ use petril::witness::{Column, Table};
 use super::args::SifExcluded;
 use super::{planned, specification, valuations};
 use crate::cli::console::Console;
-use crate::cli::{Outcome, SUCCESS, guard};
+use crate::cli::{Outcome, SUCCESS, phase};
 
 pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
-    guard::listen();
     let read = specification(&arguments.specification, console)?;
     let functions = planned::functions(&arguments.function, &read.specification)?;
     let limits = Limits { tests: arguments.limit, ..planned::limits() };
+    phase::begin_asking("counting valuations");
     let (mut texts, mut is_counted) = (Vec::new(), true);
     for function in functions {
         let excluded = sif::excluded(&read.specification, function, &limits);

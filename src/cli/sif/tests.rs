@@ -12,7 +12,7 @@ use super::args::SifTests;
 use super::{Read, planned, specification, valuations};
 use crate::cli::console::Console;
 use crate::cli::report::counted;
-use crate::cli::{Outcome, SUCCESS, guard, output};
+use crate::cli::{Outcome, SUCCESS, output, phase};
 
 /// Of so many functions the tests are printed; of more, only figures.
 const MAX_SHOWN: usize = 5;
@@ -21,15 +21,14 @@ const MAX_SHOWN: usize = 5;
 const MAX_TOLD: usize = 100;
 
 pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
-    guard::listen();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     output::refuse([&arguments.html, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = Limits { tests: arguments.limit, ..planned::limits() };
+    phase::begin_asking("choosing tests");
     if arguments.compare {
         return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
     }
-    guard::phase("choosing tests");
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
         None => planned::made(&specification, &functions, arguments.criterion, &limits),
