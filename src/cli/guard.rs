@@ -102,8 +102,20 @@ const TWICE: Duration = Duration::from_millis(500);
 /// Memory of a process beside that of its work, in MiB.
 const BASE: u64 = 64;
 
+/// Makes running out of memory an end like others: the standard library says how many bytes could not be had, and aborts.
+#[cfg(unix)]
+fn exit_instead_of_abort() {
+    let always = Arc::new(std::sync::atomic::AtomicBool::new(true));
+    // If it cannot be done, the process aborts as usual.
+    let _ = signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGABRT, 2, always);
+}
+
+#[cfg(not(unix))]
+fn exit_instead_of_abort() {}
+
 /// Keeps the limits from now on. Ctrl-C asks the work to stop, and the second one ends the program.
 pub fn start(bounds: &Bounds, ending: Ending) {
+    exit_instead_of_abort();
     let guard = Guard { clock: Clock::new(), timeout: bounds.timeout, memory: bounds.memory() };
     let guard = GUARD.get_or_init(|| guard);
     // If nobody can be told, signals end the program as usual.

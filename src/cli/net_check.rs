@@ -39,7 +39,9 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let report = judge_aloud(net, &questions, &options, &mut |progress| watcher.watch(progress), &mut tell);
     watcher.finish();
     printed?;
-    if arguments.on.json {
+    if !arguments.on.json {
+        console.print_report("", &console.provenance(), false)?;
+    } else {
         let found = report.replies.iter().zip(&report.means);
         let answer = |((name, is_id), (reply, means)): (&(String, bool), (&Reply, &Vec<Means>))| {
             Answer { name, is_id: *is_id, reply, means, located: &located }.json()

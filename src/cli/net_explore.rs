@@ -56,7 +56,7 @@ pub fn run(arguments: &OnNet, console: &Console) -> Outcome {
             let named = |(name, n): (&str, u64)| if n == 1 { name.to_owned() } else { format!("{n} {name}") };
             marked.into_iter().map(named).collect::<Vec<_>>().join(", ")
         });
-        console.print(&text(figures, stop, marked.as_deref()))?;
+        console.print_report(&text(figures, stop, marked.as_deref()), &console.provenance(), false)?;
     }
     Ok(if *stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
 }

@@ -72,7 +72,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         };
         let (markings, rest) = behaviour;
         let text = format!("{}{}{markings}safe         {safe}\n{rest}", size(&net), structure.text());
-        console.print(&(text + &structure.lists()))?;
+        console.print_report(&(text + &structure.lists()), &console.provenance(), false)?;
     }
     Ok(if exploration.stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
 }
@@ -84,7 +84,7 @@ fn unexplored(structure: &Structure<'_>, net: &Net, arguments: &NetInfo, console
         console.print_json(document(net, structure, false, &reason))?;
     } else {
         let text = format!("{}{}markings     not explored: {reason}\n", size(net), structure.text());
-        console.print(&(text + &structure.lists()))?;
+        console.print_report(&(text + &structure.lists()), &console.provenance(), false)?;
     }
     Ok(ExitCode::from(3))
 }

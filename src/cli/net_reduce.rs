@@ -48,7 +48,7 @@ pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
     for (rule, times) in &reduced.applied {
         let _ = writeln!(out, "  {:<34}{times:>8}", rule.name());
     }
-    console.print(&out)
+    console.print_report(&out, &console.provenance(), false)
 }
 
 fn places(net: &Net, arguments: &NetReduce) -> Result<Vec<PlaceId>, Failure> {

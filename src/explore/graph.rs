@@ -8,6 +8,7 @@ use fixedbitset::FixedBitSet;
 
 use super::budget::Stop;
 use super::space::Failure;
+use super::store::growth;
 use crate::rows::Rows;
 
 /// A graph of states numbered in breadth-first order, so that a state's number never exceeds that of a state farther away.
@@ -227,6 +228,12 @@ impl Graph {
             }
         }
         parents
+    }
+
+    /// Bytes that its lists take at once, beside those in use, if all of so many states are expanded and so many steps added.
+    pub(super) fn growth(&self, states: usize, steps: usize) -> u64 {
+        let rows = states.saturating_sub(self.expanded());
+        growth(&self.row_of, rows) + growth(&self.starts, rows) + growth(&self.targets, steps)
     }
 
     /// Bytes in use, without the lists that are built when asked for.

@@ -68,10 +68,23 @@ impl Store {
         }
     }
 
+    /// Bytes that entering so many states more takes at once, beside those in use: of the table, which becomes another one, and of the
+    /// list.
+    pub fn growth(&self, more: usize) -> (u64, u64) {
+        (self.table.growth(more + BATCH), growth(&self.arena, more.saturating_mul(self.words)))
+    }
+
     /// Bytes in use.
     pub fn bytes(&self) -> u64 {
         self.arena.capacity() as u64 * 8 + self.table.bytes()
     }
+}
+
+/// Bytes that a list takes at once if so many items are added.
+pub fn growth<T>(list: &Vec<T>, more: usize) -> u64 {
+    let len = list.len().saturating_add(more);
+    let grown = if len > list.capacity() { len.max(list.capacity().saturating_mul(2)) } else { 0 };
+    (grown as u64).saturating_mul(size_of::<T>() as u64)
 }
 
 /// A hash of some words, by products of twice their width, folded.

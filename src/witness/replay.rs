@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::explore::ScanState;
-use crate::flat::Hazard;
+use crate::flat::{Hazard, Target};
 use crate::interpret::Machine;
 use crate::logic::{Bound, Valuation};
 use crate::net::{Marking, PlaceId, TransitionId};
@@ -37,24 +37,26 @@ pub struct Replay<'s> {
     compared: Compared,
 }
 
-/// Values of which net and interpreter were found to agree. What neither has changed since need not be looked at again.
+/// Values of which net and interpreter were found to agree. What neither has changed since need not be looked at again: neither a
+/// firing of the net nor the instruction of the line. All are looked at where a scan begins and where it ends.
 #[derive(Clone, Debug)]
 struct Compared {
-    values: Vec<u64>,
     result: (Type, u64),
-    /// The variables of whose bits a firing has moved a token since.
+    /// The variables of whose bits a firing has moved a token since, and those that the interpreter has written.
     touched: Vec<VarId>,
+    /// Whether all are to be looked at.
+    is_all_touched: bool,
     /// Whether one has moved a token of the current result.
     is_result_touched: bool,
 }
 
 impl Compared {
     /// Nothing was compared yet.
-    fn nothing(variables: usize) -> Self {
+    fn nothing() -> Self {
         Self {
-            values: vec![0; variables],
             result: (Type::BOOL, 0),
-            touched: (0..variables).map(VarId).collect(),
+            touched: Vec::new(),
+            is_all_touched: true,
             is_result_touched: true,
         }
     }
@@ -72,7 +74,7 @@ impl<'s> Replay<'s> {
             given: Type::BOOL,
             passed: Vec::new(),
             hazards: Vec::new(),
-            compared: Compared::nothing(system.program.variables.len()),
+            compared: Compared::nothing(),
         }
     }
 
@@ -170,10 +172,12 @@ impl<'s> Replay<'s> {
             TransitionRole::Block => {
                 self.hazards.clear();
                 self.machine.begin_scan();
+                self.compared.is_all_touched = true;
             }
             TransitionRole::Copy { variable, bit, value } => {
                 let others = self.machine.value(variable) & !(1 << bit);
                 self.machine.set(variable, others | u64::from(value) << bit);
+                self.compared.touched.push(variable);
             }
             TransitionRole::Line(line) if line == self.machine.line() => match self.system.places[self.control.index()]
             {
@@ -195,8 +199,20 @@ impl<'s> Replay<'s> {
 
     /// The interpreter executes the line that the net has come to the end of. Both must have met the same hazard.
     fn execute(&mut self, line: usize) -> Result<(), Disagreement> {
-        self.given = self.system.program.code[line].instruction.gives().unwrap_or(self.given);
+        let instruction = &self.system.program.code[line].instruction;
+        self.given = instruction.gives().unwrap_or(self.given);
+        match instruction.writes() {
+            Some(Target::Variable(variable)) => self.compared.touched.push(variable),
+            Some(Target::Element(element)) => {
+                let index = self.machine.value(element.index);
+                let written = usize::try_from(index).ok().filter(|&index| index < element.length);
+                self.compared.touched.extend(written.map(|index| element.at(index)));
+                self.compared.is_all_touched |= written.is_none();
+            }
+            None => {}
+        }
         let met: Vec<Hazard> = self.machine.step().into_iter().collect();
+        self.compared.is_all_touched |= self.machine.line() >= self.system.program.end();
         let passed = std::mem::take(&mut self.passed);
         self.hazards.extend(met.iter().map(|&hazard| (line, hazard)));
         if met == passed {
@@ -239,17 +255,16 @@ impl<'s> Replay<'s> {
     fn compare(&mut self) -> Result<(), String> {
         let (system, marking) = (self.system, &self.marking);
         let is_marked = |place| marking.is_marked(place);
-        let (now, Compared { values, touched, .. }) = (self.machine.memory(), &mut self.compared);
-        if values.as_slice() != now {
-            let pairs = (0..).map(VarId).zip(values.iter().zip(now));
-            touched.extend(pairs.filter(|(_, (before, now))| before != now).map(|(variable, _)| variable));
+        let (now, Compared { touched, is_all_touched, .. }) = (self.machine.memory(), &mut self.compared);
+        if std::mem::take(is_all_touched) {
+            touched.clear();
+            touched.extend((0..now.len()).map(VarId));
         }
         touched.sort_unstable();
         for &variable in &*touched {
             if system.value(variable, is_marked) != Some(now[variable.0]) {
                 return Err(format!("`{}`", system.program.variable(variable).name));
             }
-            values[variable.0] = now[variable.0];
         }
         touched.clear();
         let (given, result) = self.typed_result();

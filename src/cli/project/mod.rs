@@ -1,5 +1,6 @@
 //! Projects: several programs, each with its plants and requirements, checked by one command.
 
+mod assumed;
 mod file;
 mod forms;
 mod given;

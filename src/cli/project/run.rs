@@ -9,6 +9,7 @@ use petril::printable::line;
 use petril::verdict::Verdict;
 use serde_json::{Value, json};
 
+use super::assumed::assumed;
 use super::file::{Entry, NAME, find, read};
 use super::forms;
 use super::given::arguments;
@@ -106,7 +107,7 @@ fn chosen(entries: Vec<Entry>, only: &[String]) -> Result<Vec<Entry>, Failure> {
 /// The summary, and what is not as it should be.
 fn text(path: &Path, results: &[Judged], console: &Console) -> String {
     let lines: Vec<Line<'_>> = results.iter().map(Line::of).collect();
-    let mut out = summary(path, &lines, console);
+    let mut out = summary(path, &lines, console) + &assumed(results, console);
     for Judged { name, arguments, done, .. } in results {
         let Ok(Done { system, source, report, .. }) = done else { continue };
         if report.verdict() != Verdict::Holds {

@@ -36,7 +36,7 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     if arguments.json {
         console.print_json(document(specification, &findings, &counts))?;
     } else {
-        console.print(&text(specification, &counts))?;
+        console.print_report(&text(specification, &counts), &console.provenance(), false)?;
     }
     let has = |doubt| findings.iter().any(|finding| finding.doubt == doubt);
     Ok(match () {

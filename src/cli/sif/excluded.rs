@@ -22,7 +22,7 @@ pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
         is_counted &= excluded.excluded.is_some();
         texts.push(text(&read.specification, function, &excluded, console.output_width()));
     }
-    console.print(&texts.join("\n"))?;
+    console.print_report(&texts.join("\n"), &console.provenance(), false)?;
     Ok(if is_counted { SUCCESS } else { ExitCode::from(3) })
 }
 

@@ -27,7 +27,8 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
     let limits = Limits { tests: arguments.limit, ..planned::limits() };
     phase::begin_asking("choosing tests");
     if arguments.compare {
-        return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
+        let table = compared(&specification, &functions, &limits).within(console.output_width());
+        return console.print_report(&table, &console.provenance(), false);
     }
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
@@ -55,10 +56,11 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
         console.print_json(json::document(&sheets))?;
     } else if plans.len() <= MAX_SHOWN {
         let texts: Vec<String> = plans.iter().map(|plan| text(&sheets, plan, console)).collect();
-        console.print(&texts.join("\n"))?;
+        console.print_report(&texts.join("\n"), sheets.provenance, false)?;
     } else {
         let hint = "\nthe tests of one function: --function NAME\n";
-        console.print(&(figures(&specification, &plans).within(console.output_width()) + hint))?;
+        let table = figures(&specification, &plans).within(console.output_width());
+        console.print_report(&(table + hint), sheets.provenance, false)?;
     }
     let is_all = plans.iter().all(|plan| plan.incomplete.is_none());
     Ok(if is_all { SUCCESS } else { ExitCode::from(3) })

@@ -5,6 +5,7 @@
 
 mod compile;
 mod gates;
+mod memory;
 mod numbers;
 mod products;
 mod scan_gates;
