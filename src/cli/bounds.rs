@@ -42,9 +42,7 @@ impl Verb {
     pub fn bounds(&self) -> Option<Bounds> {
         Some(match self {
             // Each program has its own time.
-            Self::Check(check) if check.program.is_none() => {
-                Bounds { timeout: None, ..check.limits.bounds() }
-            }
+            Self::Check(check) if check.program.is_none() => Bounds { timeout: None, ..check.limits.bounds() },
             Self::Check(check) => check.limits.bounds(),
             Self::Translate(translate) => translate.bounds,
             Self::Flat(flat) => flat.bounds,

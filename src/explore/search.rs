@@ -190,7 +190,10 @@ impl Search<'_> {
         if self.bytes() > self.budget.bytes || rows.max(table) > 0 && self.bytes() + rows.max(table) > most {
             Some(Stop::Bytes(self.budget.bytes))
         } else if rows + table + lists > SMALL && !is_available(rows + table + lists) {
-            Some(Stop::Watcher(format!("the system has no more memory than the {} MiB of the states", self.bytes() >> 20)))
+            Some(Stop::Watcher(format!(
+                "the system has no more memory than the {} MiB of the states",
+                self.bytes() >> 20
+            )))
         } else if self.states.len() as u64 > states {
             Some(Stop::States(states))
         } else {

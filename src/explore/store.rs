@@ -123,6 +123,27 @@ mod tests {
     }
 
     #[test]
+    fn growth_is_known_beforehand() {
+        let mut store = Store::new(2);
+        let (mut tables, mut lists) = (0, 0);
+        for first in (0..100_000_u64).step_by(500) {
+            let (table, list) = store.growth(500);
+            let (table_before, list_before) = (store.table.bytes(), store.arena.capacity());
+            enter(&mut store, &(first..first + 500).flat_map(|i| [i, 7]).collect::<Vec<_>>());
+            if store.table.bytes() > table_before {
+                assert_eq!(store.table.bytes(), table);
+                tables += 1;
+            }
+            let bytes = store.arena.capacity() as u64 * 8;
+            assert_eq!(store.arena.capacity() > list_before, list > 0);
+            assert!(list == 0 || (list..=2 * list).contains(&bytes), "{list} {bytes}");
+            lists += usize::from(list > 0);
+        }
+        // From 448 numbers to 114,688 the table becomes larger eight times, and the list from 1000 words to 256,000 as often.
+        assert_eq!((tables, lists), (8, 9));
+    }
+
+    #[test]
     fn states_that_differ_in_any_bit_are_different() {
         let mut store = Store::new(2);
         assert_eq!(enter(&mut store, &[0, 0]), [0]);

@@ -53,12 +53,7 @@ struct Compared {
 impl Compared {
     /// Nothing was compared yet.
     fn nothing() -> Self {
-        Self {
-            result: (Type::BOOL, 0),
-            touched: Vec::new(),
-            is_all_touched: true,
-            is_result_touched: true,
-        }
+        Self { result: (Type::BOOL, 0), touched: Vec::new(), is_all_touched: true, is_result_touched: true }
     }
 }
 
