@@ -6,7 +6,7 @@ mod support;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use support::process::{Run, petril, run};
@@ -299,7 +299,7 @@ fn slow_project() -> TempDir {
     let folder = folder();
     let text = "[defaults]\ntimeout = 0.4\nformulas = [\"AG (q -> q)\"]\n[[check]]\nprogram = \"nested.il\"\n[[check]]\nprogram = \"p.il\"\n";
     fs::write(folder.path().join("petril.toml"), text).unwrap();
-    fs::write(folder.path().join("nested.il"), nested(18)).unwrap();
+    fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
     folder
 }
 
@@ -333,31 +333,30 @@ fn time_is_kept_while_files_are_watched() {
     assert!(run.stderr.contains("unknown: the time limit of 0.4 s was reached, while "), "{}", run.stderr);
 }
 
-/// Runs, sends a signal after half a second, and gives what is left.
+/// Runs, sends a signal after half a second, and gives the exit code and standard error.
 #[cfg(unix)]
-fn signalled(folder: &Path, signal: &str, line: &str) -> Run {
-    let mut command = Command::new("sh");
-    let script = format!("\"$0\" {line} & sleep 0.5; kill -{signal} $!; wait $!");
-    // A job in the background does not hear Ctrl-C unless the shell controls jobs.
-    command.args(["-c", &format!("set -m; {script}"), env!("CARGO_BIN_EXE_petril")]).current_dir(folder);
+fn signalled(folder: &Path, signal: &str, line: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_petril"));
+    command.args(line).current_dir(folder).env("PETRIL_PROGRESS", "0").stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
     let started = Instant::now();
-    let run = run(command);
-    assert!(started.elapsed() < Duration::from_secs(20), "{line} takes {:?}", started.elapsed());
-    run
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert!(started.elapsed() < Duration::from_secs(20), "{line:?} takes {:?}", started.elapsed());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_what_does_not_ask() {
     let folder = slow_project();
-    let run = signalled(folder.path(), "INT", "check nested.il -r 'AG (q -> q)' --no-cache");
-    assert_eq!(run.code, 3, "{}", run.stderr);
-    assert!(run.stderr.contains("unknown: interrupted, while "), "{}", run.stderr);
+    let (code, said) = signalled(folder.path(), "INT", &["check", "nested.il", "-r", "AG (q -> q)", "--no-cache"]);
+    assert!(code == Some(3) && said.starts_with("unknown: interrupted, while "), "{code:?} {said}");
     let text = fs::read_to_string(folder.path().join("petril.toml")).unwrap().replace("timeout = 0.4", "timeout = 900");
     fs::write(folder.path().join("petril.toml"), text).unwrap();
-    let run = signalled(folder.path(), "INT", "check --no-cache");
-    assert_eq!(run.code, 3, "{}", run.stderr);
-    assert!(run.stderr.contains("unknown: nested: interrupted, while "), "{}", run.stderr);
+    let (code, said) = signalled(folder.path(), "INT", &["check", "--no-cache"]);
+    assert!(code == Some(3) && said.starts_with("unknown: nested: interrupted, while "), "{code:?} {said}");
 }
 
 /// The standard library aborts where an allocation fails.
@@ -365,8 +364,8 @@ fn ctrl_c_ends_what_does_not_ask() {
 #[test]
 fn an_abort_is_an_end_with_an_exit_code() {
     let folder = slow_project();
-    let run = signalled(folder.path(), "ABRT", "check nested.il -r 'AG (q -> q)' --no-cache");
-    assert_eq!(run.code, 2, "{}", run.stderr);
+    let (code, said) = signalled(folder.path(), "ABRT", &["check", "nested.il", "-r", "AG (q -> q)", "--no-cache"]);
+    assert_eq!(code, Some(2), "{said}");
 }
 
 #[cfg(target_os = "linux")]
@@ -391,7 +390,7 @@ fn a_small_address_space_is_no_abort() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
     let mut command = Command::new("sh");
-    let line = "ulimit -v 700000; \"$0\" check nested.il -r 'AG (q -> q)' --threads 1";
+    let line = "ulimit -v 700000; \"$0\" check nested.il -r 'AG (q -> q)' --threads 1 --max-memory 100000";
     command.args(["-c", line, env!("CARGO_BIN_EXE_petril")]).current_dir(folder.path());
     let run = run(command);
     assert!(run.code == 3 && run.stderr.contains("unknown: the limit of "), "{} {}", run.code, run.stderr);
