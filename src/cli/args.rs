@@ -107,7 +107,7 @@ pub struct Manual {
 /// `violated` comes with a shortest run that shows it, replayed on the net and in the interpreter.
 ///
 /// Without a program, all programs of the project file are checked. Then --html, --csv, --trace-csv and --vcd name folders.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 #[command(after_long_help = "\
 Formulas are CTL: AG EF AX EX AF EG, A [p U q], E [p U q] and W (weak until) over the program's variables, with
 ! & | -> <-> and comparisons of sums; or LTL, after this word: LTL G (p -> F q). A state is the valuation of all
@@ -405,6 +405,9 @@ pub struct NetConvert {
     /// .dot.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// `petril net check`
@@ -464,6 +467,9 @@ pub struct NetReduce {
     /// Print one JSON document.
     #[arg(long, action = ArgAction::SetTrue)]
     pub json: bool,
+    /// Limits of the work.
+    #[command(flatten)]
+    pub bounds: Bounds,
 }
 
 /// What a reduction keeps.

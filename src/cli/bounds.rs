@@ -41,10 +41,8 @@ impl Verb {
     /// Limits on the work, unless it is an interactive session.
     pub fn bounds(&self) -> Option<Bounds> {
         Some(match self {
-            // Each check has its own time limit.
-            Self::Check(check) if check.watch || check.program.is_none() => {
-                Bounds { timeout: None, ..check.limits.bounds() }
-            }
+            // Each program has its own time.
+            Self::Check(check) if check.program.is_none() => Bounds { timeout: None, ..check.limits.bounds() },
             Self::Check(check) => check.limits.bounds(),
             Self::Translate(translate) => translate.bounds,
             Self::Flat(flat) => flat.bounds,
@@ -54,7 +52,8 @@ impl Verb {
             Self::Net(NetVerb::Info(info)) => info.on.limits.bounds(),
             Self::Net(NetVerb::Check(check)) => check.on.limits.bounds(),
             Self::Net(NetVerb::Explore(on)) => on.limits.bounds(),
-            Self::Net(NetVerb::Reduce(_) | NetVerb::Convert(_)) => Bounds::default(),
+            Self::Net(NetVerb::Reduce(reduce)) => reduce.bounds,
+            Self::Net(NetVerb::Convert(convert)) => convert.bounds,
             Self::Sif(verb) => verb.bounds(),
             Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man(_) => return None,
         })

@@ -24,7 +24,7 @@ use super::input::Program;
 use super::progress::Watcher;
 use super::report::Printed;
 use super::requirements::{Asked, Bound};
-use super::{Failure, Outcome, forms, guard, input, project, show, watch};
+use super::{Failure, Outcome, forms, input, phase, project, show, watch};
 
 /// Checked program with its report.
 pub struct Done {
@@ -115,7 +115,7 @@ pub fn checked(
     let (Program { flat: program, source }, plant) = input::parts_of(source, &plants, &reading, console)?;
     show::refuse_unknown(&program, &arguments.show)?;
     let domains = asked.domains(&program, &plant);
-    guard::phase("composing the net");
+    phase::begin("composing the net");
     let mut system = System::with_domains(program, plant, domains);
     let Bound { requirements, assumptions, assertions, fairness_texts, mut fairness } =
         asked.bind(&system, view, console)?;
@@ -136,7 +136,7 @@ pub fn checked(
         assumptions,
         assertions,
     };
-    guard::phase("exploring");
+    phase::begin_asking("exploring");
     let started = Instant::now();
     let mut watch = |progress: &Progress| watcher.watch(progress);
     let tell = |news: News<'_>| {

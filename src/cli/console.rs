@@ -5,7 +5,7 @@ use std::fs::File;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use petril::diagnostic::{Diagnostic, Style, render};
 use petril::exchange::{Provenance, json};
@@ -14,7 +14,8 @@ use petril::source::Source;
 use serde_json::Value;
 
 use super::args::When;
-use super::seen::{Seen, sha256};
+use super::origin::Origin;
+use super::seen::Seen;
 use super::{Failure, Outcome, SUCCESS, guard, output, reason};
 
 /// Upper bound on the diagnostics printed for one file; the first ones are the ones to fix.
@@ -37,12 +38,7 @@ pub struct Console {
     /// Mark after the escape character of colours until they are printed. Random in each run, so that no text contains
     /// it.
     mark: String,
-    /// Files and patterns read.
-    seen: Mutex<Seen>,
-    /// Files read before, by the console that this one reports to.
-    read_before: Vec<(String, String)>,
-    /// Hash of the options of the command line.
-    options: Mutex<String>,
+    origin: Arc<Origin>,
 }
 
 /// Output collected by a holding console.
@@ -77,24 +73,23 @@ impl Console {
             held: None,
             colour,
             mark: format!("{:016x}", RandomState::new().build_hasher().finish()),
-            seen: Mutex::default(),
-            read_before: Vec::new(),
-            options: Mutex::default(),
+            origin: Arc::default(),
         }
     }
 
     /// Records the options of the command line.
     pub fn has_options(&self, options: &dyn fmt::Debug) {
-        *lock(&self.options) = sha256(format!("{options:?}").as_bytes());
+        self.origin.has_options(options);
     }
 
     /// Provenance of a report made now.
     pub fn provenance(&self) -> Provenance {
-        let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-        let mut inputs = self.read_before.clone();
-        inputs.extend(lock(&self.seen).inputs());
-        let command = std::iter::once("petril".to_owned()).chain(words).collect();
-        Provenance { command, inputs, options: lock(&self.options).clone() }
+        self.origin.provenance()
+    }
+
+    /// Where the reports come from.
+    pub fn origin(&self) -> Arc<Origin> {
+        Arc::clone(&self.origin)
     }
 
     /// Colour setting.
@@ -104,36 +99,36 @@ impl Console {
 
     /// Creates a console that holds its output until it is passed to [`tell`](Self::tell).
     pub fn holding(colour: When, read_before: Vec<(String, String)>) -> Self {
-        Self { held: Some(Mutex::default()), read_before, ..Self::new(colour) }
+        Self { held: Some(Mutex::default()), origin: Arc::new(Origin::after(read_before)), ..Self::new(colour) }
     }
 
     /// Output held by a holding console.
     pub fn told(self) -> Told {
         let messages = self.held.map(inner).unwrap_or_default();
-        Told { messages, diagnostics: inner(self.printed), seen: inner(self.seen) }
+        Told { messages, diagnostics: inner(self.printed), seen: std::mem::take(&mut *self.origin.seen()) }
     }
 
     /// Prints the output of a holding console.
     pub fn tell(&self, told: Told) {
         self.write(&told.messages);
         lock(&self.printed).extend(told.diagnostics);
-        lock(&self.seen).extend(told.seen);
+        self.origin.seen().extend(told.seen);
     }
 
     /// Records a file that was read, or could not be (`None`).
     pub fn has_read(&self, path: &Path, bytes: Option<&[u8]>) {
         output::has_read(path);
-        lock(&self.seen).file(path, bytes);
+        self.origin.seen().file(path, bytes);
     }
 
     /// Records the files matched by a pattern.
     pub fn has_matched(&self, pattern: &str, files: &[PathBuf]) {
-        lock(&self.seen).pattern(pattern, files);
+        self.origin.seen().pattern(pattern, files);
     }
 
     /// Takes the record of files and patterns read since the last call.
     pub fn take_seen(&self) -> Seen {
-        std::mem::take(&mut *lock(&self.seen))
+        std::mem::take(&mut *self.origin.seen())
     }
 
     /// Prints the diagnostics of a file, up to a limit, each followed by an empty line.

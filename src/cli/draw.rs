@@ -9,7 +9,7 @@ use petril::{draw, semantics, syntax};
 
 use super::args::Draw;
 use super::console::Console;
-use super::{Failure, Outcome, SUCCESS, input, output, shown};
+use super::{Failure, Outcome, SUCCESS, input, output, phase, shown};
 
 /// Operators with pictures.
 const OPERATORS: [&str; 19] = [
@@ -31,6 +31,7 @@ pub fn run(arguments: &Draw, console: &Console) -> Outcome {
         (None, instruction) => single(instruction.as_deref().unwrap_or_default())?,
     };
     let title = program.text(program.code[line].instruction);
+    phase::begin("composing the net");
     let system = System::new(program, Plant::default());
     output::write_text(&arguments.output, &draw::subnet(&system, line, Some(title.trim())).svg())?;
     console.message(&format!("{}\n", shown(&arguments.output)));

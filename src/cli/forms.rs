@@ -8,7 +8,7 @@ use petril::exchange::{Checked, Purpose, Stamp, html, junit, report_csv, runs, s
 use petril::printable;
 use petril::verdict::{Answer, Trace};
 
-use super::{Failure, guard, output, reason, shown};
+use super::{Failure, output, phase, reason, shown};
 
 /// Files that a check writes beside its report.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -36,7 +36,7 @@ pub struct Forms {
 /// Writes the requested files. Each file is written completely or not at all.
 pub fn write(forms: &Forms, checked: &Checked<'_>, started: Instant) -> Result<(), Failure> {
     refuse(forms)?;
-    guard::phase("writing the report");
+    phase::begin_asking("writing the report");
     let stamp = stamp(started);
     if let Some(file) = &forms.html {
         output::write_text(file, &html::write(checked, stamp))?;

@@ -4,14 +4,17 @@
 use std::fmt;
 use std::io::{self, Write};
 use std::process::exit;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use petril::printable;
 use serde_json::json;
 
 use super::bounds::Bounds;
+use super::origin::Origin;
+use super::phase::{self, Phase};
 use super::{memory, output};
 
 /// Reason to stop.
@@ -42,30 +45,53 @@ impl fmt::Display for Reason {
     }
 }
 
-/// Output of a verb that the guard ends.
-#[derive(Clone, Copy)]
+/// How a verb is ended that does not end itself.
 pub struct Ending {
     /// Whether the verb has a verdict, which is then "unknown".
     pub has_verdict: bool,
     pub wants_json: bool,
+    pub origin: Arc<Origin>,
 }
 
 struct Guard {
-    started: Instant,
+    clock: Clock,
     timeout: Option<Duration>,
     /// Memory limit in MiB.
     memory: u64,
+}
+
+/// The time since the work began, which may begin anew.
+struct Clock {
+    first: Instant,
+    /// When the work began, in milliseconds after the first time.
+    began: AtomicU64,
+}
+
+/// The beginning of no work: the clock stands.
+const NEVER: u64 = u64::MAX;
+
+impl Clock {
+    fn new() -> Self {
+        Self { first: Instant::now(), began: AtomicU64::new(0) }
+    }
+
+    /// Time since the work began, at some time.
+    fn at(&self, time: Instant) -> Duration {
+        let began = Duration::from_millis(self.began.load(Ordering::Relaxed));
+        time.saturating_duration_since(self.first).saturating_sub(began)
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.at(Instant::now())
+    }
 }
 
 static GUARD: OnceLock<Guard> = OnceLock::new();
 static INTERRUPTED: OnceLock<Instant> = OnceLock::new();
 /// Memory in use, in MiB.
 static USED: AtomicU64 = AtomicU64::new(0);
-/// Whether the work polls for a reason to stop.
-static IS_ASKING: AtomicBool = AtomicBool::new(false);
 /// Number of threads blocked on a reader of their output.
 static PAUSED: AtomicUsize = AtomicUsize::new(0);
-static PHASE: Mutex<&str> = Mutex::new("starting");
 
 /// Interval between two checks of clock and memory.
 const TICK: Duration = Duration::from_millis(10);
@@ -76,9 +102,21 @@ const TWICE: Duration = Duration::from_millis(500);
 /// Memory of a process apart from its work, in MiB.
 const BASE: u64 = 64;
 
+/// Makes running out of memory an end like others: the standard library says how many bytes could not be had, and aborts.
+#[cfg(unix)]
+fn exit_instead_of_abort() {
+    let always = Arc::new(std::sync::atomic::AtomicBool::new(true));
+    // If it cannot be done, the process aborts as usual.
+    let _ = signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGABRT, 2, always);
+}
+
+#[cfg(not(unix))]
+fn exit_instead_of_abort() {}
+
 /// Starts to enforce the limits. Ctrl-C asks the work to stop; a second Ctrl-C ends the program.
 pub fn start(bounds: &Bounds, ending: Ending) {
-    let guard = Guard { started: Instant::now(), timeout: bounds.timeout, memory: bounds.memory() };
+    exit_instead_of_abort();
+    let guard = Guard { clock: Clock::new(), timeout: bounds.timeout, memory: bounds.memory() };
     let guard = GUARD.get_or_init(|| guard);
     // Without a handler, signals end the program as usual.
     let _ = ctrlc::set_handler(|| {
@@ -87,12 +125,22 @@ pub fn start(bounds: &Bounds, ending: Ending) {
             exit(130);
         }
     });
-    let _ = thread::Builder::new().name("guard".to_owned()).spawn(move || guard.keep(ending));
+    let _ = thread::Builder::new().name("guard".to_owned()).spawn(move || guard.keep(&ending));
 }
 
-/// Declares that the work polls for a reason to stop; it is then given time to report partial results.
-pub fn listen() {
-    IS_ASKING.store(true, Ordering::Relaxed);
+/// Starts the clock anew.
+pub fn restart() {
+    if let Some(guard) = GUARD.get() {
+        let now = u64::try_from(guard.clock.first.elapsed().as_millis()).unwrap_or(NEVER);
+        guard.clock.began.store(now, Ordering::Relaxed);
+    }
+}
+
+/// Stops the clock, until it is started anew.
+pub fn rest() {
+    if let Some(guard) = GUARD.get() {
+        guard.clock.began.store(NEVER, Ordering::Relaxed);
+    }
 }
 
 /// Reason why the work is to stop, if any.
@@ -101,7 +149,7 @@ pub fn asked() -> Option<Reason> {
         return Some(Reason::Interrupted);
     }
     let guard = GUARD.get()?;
-    if let Some(limit) = guard.timeout.filter(|&limit| guard.started.elapsed() > limit) {
+    if let Some(limit) = guard.timeout.filter(|&limit| guard.clock.elapsed() > limit) {
         return Some(Reason::Time(limit));
     }
     (used() > guard.memory).then(|| Reason::memory(guard.memory))
@@ -111,9 +159,9 @@ pub fn asked() -> Option<Reason> {
 pub fn asked_to_finish() -> Option<Reason> {
     let reason = asked()?;
     let guard = GUARD.get()?;
-    let is_over = |asked: Duration| guard.started.elapsed() > to_finish(asked);
+    let is_over = |asked: Duration| guard.clock.elapsed() > to_finish(asked);
     let is_due = match reason {
-        Reason::Interrupted => INTERRUPTED.get().is_some_and(|at| is_over(at.saturating_duration_since(guard.started))),
+        Reason::Interrupted => INTERRUPTED.get().is_some_and(|&at| is_over(guard.clock.at(at))),
         Reason::Time(limit) => is_over(limit),
         Reason::Memory { limit, used } => used > limit.saturating_mul(12) / 10 + BASE / 2,
     };
@@ -135,19 +183,15 @@ pub fn is_interrupted() -> bool {
     INTERRUPTED.get().is_some()
 }
 
+/// Whether nobody waits any longer for one of several programs that was asked to stop with all others.
+pub fn is_to_leave(is_asking: bool) -> bool {
+    let (Some(guard), Some(&at)) = (GUARD.get(), INTERRUPTED.get()) else { return false };
+    !is_asking || guard.clock.elapsed() > to_wait(guard.clock.at(at))
+}
+
 /// Memory in use, in MiB.
 pub fn used() -> u64 {
     USED.load(Ordering::Relaxed)
-}
-
-/// Sets the current phase of the work.
-pub fn phase(name: &'static str) {
-    *PHASE.lock().unwrap_or_else(PoisonError::into_inner) = name;
-}
-
-/// Current phase of the work.
-pub fn doing() -> &'static str {
-    *PHASE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Runs work that may block on a reader of output for any time.
@@ -158,13 +202,19 @@ pub fn pause<T>(work: impl FnOnce() -> T) -> T {
     done
 }
 
+/// The time from which nobody waits for one of several programs that was asked to stop at another one: after the time to finish, and
+/// before the process is ended.
+pub fn to_wait(asked: Duration) -> Duration {
+    asked.saturating_add(asked / 10 * 3).saturating_add(Duration::from_millis(550))
+}
+
 /// Time at which work that was asked to stop at `asked` is ended: 1.4 times as long, plus 0.8 s.
 fn grace(asked: Duration) -> Duration {
     asked.saturating_add(asked / 5 * 2).saturating_add(Duration::from_millis(800))
 }
 
 impl Guard {
-    fn keep(&self, ending: Ending) {
+    fn keep(&self, ending: &Ending) {
         let mut since = None;
         let is_limited = memory::address_space().is_some();
         loop {
@@ -182,29 +232,35 @@ impl Guard {
                 since = None;
                 continue;
             };
-            let now = self.started.elapsed();
-            let end = if IS_ASKING.load(Ordering::Relaxed) { grace(*since.get_or_insert(now)) } else { now };
-            let is_overdue = now >= end || used > self.memory.saturating_mul(14) / 10 + BASE;
+            let Phase { is_asking, .. } = phase::of_process();
+            let now = self.clock.elapsed();
+            let end = if is_asking { grace(*since.get_or_insert(now)) } else { now };
+            let most = if is_asking { self.memory.saturating_mul(14) / 10 + BASE } else { self.memory };
             let is_paused = PAUSED.load(Ordering::SeqCst) > 0;
-            if is_overdue && (!is_paused || reason == Reason::Interrupted) {
+            if (now >= end || used > most) && (!is_paused || reason == Reason::Interrupted) {
                 self.end(reason, ending, is_paused);
             }
         }
     }
 
-    /// Ends the process. Nothing more is printed if a reader blocks the output.
-    fn end(&self, reason: Reason, ending: Ending, is_paused: bool) {
+    /// Ends the process. Where a reader keeps others waiting, nothing more is printed.
+    fn end(&self, reason: Reason, ending: &Ending, is_paused: bool) {
         output::discard_unfinished();
         let is_interrupted = reason == Reason::Interrupted;
         if !is_paused {
-            let phase = doing();
-            let seconds = self.started.elapsed().as_secs_f64();
+            let phase = phase::of_process().name;
+            let seconds = self.clock.elapsed().as_secs_f64();
             let message = format!("{reason}, while {phase}, after {seconds:.1} s with {} MiB", used());
             let verdict = if ending.has_verdict { "unknown" } else { "error" };
             let _ = writeln!(io::stderr(), "{verdict}: {message}");
             if ending.wants_json {
-                let document = json!({ "verdict": verdict, "error": message, "diagnostics": [] });
-                let _ = writeln!(io::stdout(), "{document:#}");
+                let document = json!({
+                    "verdict": verdict,
+                    "error": message,
+                    "provenance": ending.origin.provenance().json(),
+                    "diagnostics": [],
+                });
+                let _ = writeln!(io::stdout(), "{}", printable::json(&format!("{document:#}")));
             }
         }
         exit(if ending.has_verdict && !is_paused {

@@ -16,7 +16,7 @@ use petril::translate::{Plant, System};
 
 use super::console::Console;
 use super::meaning::Reading;
-use super::{Failure, guard, output, reason, shown};
+use super::{Failure, output, phase, reason, shown};
 
 /// Upper bounds on input files in bytes: programs and requirements are written by hand, nets may be generated.
 pub const MAX_TEXT: u64 = 64 << 20;
@@ -30,7 +30,7 @@ pub fn source(path: &Path, limit: u64, console: &Console) -> Result<Source, Fail
         Failure::Message(format!("cannot read `{}`: {}", shown(path), reason(&error)))
     };
     let mut bytes = Vec::new();
-    guard::phase("reading files");
+    phase::begin("reading files");
     if name == "-" {
         output::has_read(path);
         std::io::stdin().take(limit + 1).read_to_end(&mut bytes).map_err(cannot)?;
@@ -79,19 +79,19 @@ pub fn program(path: &Path, reading: &Reading, console: &Console) -> Result<Prog
 
 /// As [`program`], for a text already read.
 pub fn program_of(source: Source, reading: &Reading, console: &Console) -> Result<Program, Failure> {
-    guard::phase("reading the program");
+    phase::begin("reading the program");
     let (unit, mut diagnostics) = syntax::parse(&source);
     if reading.strict {
         diagnostics.extend(semantics::strict(&source, &unit));
     }
-    guard::phase("checking names and types");
+    phase::begin("checking names and types");
     let (program, more) = semantics::check_unit(&unit, !any_error(&diagnostics), reading.pou.as_deref());
     // Strict mode has reported this already.
     diagnostics.extend(more.into_iter().filter(|d| !(reading.strict && d.code == Code::CheckedByItself)));
     diagnostics.sort_by_key(Diagnostic::span);
     console.diagnostics(&diagnostics, &source);
     let program = program.filter(|_| !any_error(&diagnostics)).ok_or(Failure::Reported)?;
-    guard::phase("flattening the program");
+    phase::begin("flattening the program");
     Ok(Program { flat: flatten_with(&program, reading.scan_time), source })
 }
 
@@ -123,7 +123,7 @@ fn net_by(path: &Path, [of_tina, of_pnml]: [NetReader; 2], console: &Console) ->
         }
     };
     let source = source(path, MAX_NET, console)?;
-    guard::phase("reading a net");
+    phase::begin("reading a net");
     match read(&source) {
         Ok(net) => {
             console.diagnostics(&net.warnings, &source);
@@ -144,7 +144,7 @@ pub fn system<P: AsRef<Path>>(
     console: &Console,
 ) -> Result<(System, Source), Failure> {
     let (program, plant) = parts(path, plants, reading, console)?;
-    guard::phase("composing the net");
+    phase::begin("composing the net");
     Ok((System::new(program.flat, plant), program.source))
 }
 

@@ -29,7 +29,9 @@ mod net_info;
 mod net_reduce;
 mod net_run;
 mod net_structure;
+mod origin;
 mod output;
+mod phase;
 mod progress;
 mod project;
 mod report;
@@ -60,6 +62,8 @@ pub enum Failure {
     Reported,
     /// Message still to be printed.
     Message(String),
+    /// The work on a program was given up at a limit, so its verdict is unknown. This has still to be said.
+    Stopped(String),
 }
 
 /// Result of a verb.
@@ -98,7 +102,8 @@ pub fn run() -> ExitCode {
     let console = Console::new(args.colour);
     let wants_json = args.verb.wants_json();
     if let Some(bounds) = args.verb.bounds() {
-        guard::start(&bounds, guard::Ending { has_verdict: args.verb.has_verdict(), wants_json });
+        let (has_verdict, origin) = (args.verb.has_verdict(), console.origin());
+        guard::start(&bounds, guard::Ending { has_verdict, wants_json, origin });
         sign_of_life::begin();
     }
     console.has_options(&args.verb);
@@ -123,14 +128,23 @@ pub fn run() -> ExitCode {
         Ok(code) => code,
         Err(failure) => {
             let mut document = json!({ "verdict": "error", "error": null });
-            if let Failure::Message(message) = failure {
-                console.error(&message);
-                document["error"] = message.into();
+            let mut code = ExitCode::from(2);
+            match failure {
+                Failure::Message(message) => {
+                    console.error(&message);
+                    document["error"] = message.into();
+                }
+                Failure::Stopped(message) => {
+                    console.message(&format!("unknown: {message}\n"));
+                    document = json!({ "verdict": "unknown", "error": message });
+                    code = ExitCode::from(3);
+                }
+                Failure::Reported => {}
             }
             if wants_json {
                 let _ = console.print_json(document);
             }
-            ExitCode::from(2)
+            code
         }
     }
 }

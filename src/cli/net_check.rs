@@ -18,14 +18,14 @@ use super::args::{NetCheck, TraceForm};
 use super::console::Console;
 use super::net_explore::threads;
 use super::progress::Watcher;
-use super::{Failure, Outcome, SUCCESS, guard, input, net_run};
+use super::{Failure, Outcome, SUCCESS, input, net_run, phase};
 
 pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let watcher = Watcher::new(&arguments.on.limits)?;
     let (located, _) = input::net(&arguments.on.model, console)?;
     let (names, questions) = questions(arguments, &located, console)?;
     let net = &located.net;
-    guard::phase("answering questions about the net");
+    phase::begin_asking("answering questions about the net");
     let options = Options { budget: arguments.on.limits.budget(), threads: threads(&arguments.on.limits), keep: true };
     let mut printed = Ok(SUCCESS);
     // Answers are printed as they become known, so that they remain when the work is ended from outside.
@@ -39,7 +39,9 @@ pub fn run(arguments: &NetCheck, console: &Console) -> Outcome {
     let report = judge_aloud(net, &questions, &options, &mut |progress| watcher.watch(progress), &mut tell);
     watcher.finish();
     printed?;
-    if arguments.on.json {
+    if !arguments.on.json {
+        console.print_report("", &console.provenance(), false)?;
+    } else {
         let found = report.replies.iter().zip(&report.means);
         let answer = |((name, is_id), (reply, means)): (&(String, bool), (&Reply, &Vec<Means>))| {
             Answer { name, is_id: *is_id, reply, means, located: &located }.json()

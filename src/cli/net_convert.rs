@@ -9,7 +9,7 @@ use petril::net::Net;
 use super::args::NetConvert;
 use super::console::Console;
 use super::format::Format;
-use super::{Failure, Outcome, input, output, shown};
+use super::{Failure, Outcome, input, output, phase, shown};
 
 /// Upper bound on the nodes that Graphviz lays out in about a minute.
 const MANY_FOR_GRAPHVIZ: usize = 2_000;
@@ -49,6 +49,7 @@ pub fn write(path: &Path, format: Format, net: &Net, extras: Extras<'_>, console
         }
         _ => {}
     }
+    phase::begin("writing the net");
     let is_safe = extras.units.is_some_and(|units| units.safe);
     output::write(path, &|out| match format {
         Format::Pnml => pnml::write_to(net, extras, out),

@@ -10,13 +10,13 @@ use serde_json::json;
 use super::args::{Limits, OnNet};
 use super::console::Console;
 use super::progress::Watcher;
-use super::{Outcome, SUCCESS, guard, input};
+use super::{Outcome, SUCCESS, input, phase};
 
 pub fn run(arguments: &OnNet, console: &Console) -> Outcome {
     let watcher = Watcher::new(&arguments.limits)?;
     let (located, _) = input::net(&arguments.model, console)?;
     let net = if arguments.json { located.net } else { located.net.into_printable() };
-    guard::phase("exploring the net");
+    phase::begin_asking("exploring the net");
     let options = Options { budget: arguments.limits.budget(), threads: threads(&arguments.limits), keep: false };
     let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);
     watcher.finish();
@@ -56,7 +56,7 @@ pub fn run(arguments: &OnNet, console: &Console) -> Outcome {
             let named = |(name, n): (&str, u64)| if n == 1 { name.to_owned() } else { format!("{n} {name}") };
             marked.into_iter().map(named).collect::<Vec<_>>().join(", ")
         });
-        console.print(&text(figures, stop, marked.as_deref()))?;
+        console.print_report(&text(figures, stop, marked.as_deref()), &console.provenance(), false)?;
     }
     Ok(if *stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
 }

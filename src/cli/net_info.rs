@@ -14,7 +14,7 @@ use super::net_explore::threads;
 use super::net_structure::Structure;
 use super::progress::Watcher;
 use super::report::counted;
-use super::{Outcome, SUCCESS, guard, input};
+use super::{Outcome, SUCCESS, input, phase};
 
 /// Upper bound on nodes named in a line.
 pub const NAMED: usize = 20;
@@ -30,7 +30,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
     let watcher = Watcher::new(&on.limits)?;
     let (located, _) = input::net(&on.model, console)?;
     let net = if on.json { located.net } else { located.net.into_printable() };
-    guard::phase("looking at the structure of the net");
+    phase::begin("looking at the structure of the net");
     let summary = Summary::of(&net, arguments.effort);
     let structure = Structure { net: &net, summary: &summary, arguments };
     // Each marking of a large net takes long by itself.
@@ -39,7 +39,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         watcher.finish();
         return unexplored(&structure, &net, arguments, console);
     }
-    guard::phase("exploring the net");
+    phase::begin_asking("exploring the net");
     let options = Options { budget: on.limits.budget_of(STATES), threads: threads(&on.limits), keep: true };
     let exploration = explore(&Model::from(&net), &options, &mut |progress| watcher.watch(progress), None);
     let second = second_token(&net, &exploration);
@@ -72,7 +72,7 @@ pub fn run(arguments: &NetInfo, console: &Console) -> Outcome {
         };
         let (markings, rest) = behaviour;
         let text = format!("{}{}{markings}safe         {safe}\n{rest}", size(&net), structure.text());
-        console.print(&(text + &structure.lists()))?;
+        console.print_report(&(text + &structure.lists()), &console.provenance(), false)?;
     }
     Ok(if exploration.stop == Stop::Complete { SUCCESS } else { ExitCode::from(3) })
 }
@@ -84,7 +84,7 @@ fn unexplored(structure: &Structure<'_>, net: &Net, arguments: &NetInfo, console
         console.print_json(document(net, structure, false, &reason))?;
     } else {
         let text = format!("{}{}markings     not explored: {reason}\n", size(net), structure.text());
-        console.print(&(text + &structure.lists()))?;
+        console.print_report(&(text + &structure.lists()), &console.provenance(), false)?;
     }
     Ok(ExitCode::from(3))
 }

@@ -11,7 +11,7 @@ use serde_json::json;
 
 use super::args::{Kept, NetReduce};
 use super::console::Console;
-use super::{Failure, Outcome, input, net_convert};
+use super::{Failure, Outcome, input, net_convert, phase};
 
 pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
     let format = net_convert::format(&arguments.output)?;
@@ -22,6 +22,7 @@ pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
         Kept::Deadlock => Property::Deadlock,
         Kept::Paths => Property::Paths,
     };
+    phase::begin("reducing the net");
     let reduced =
         reduce(&net, &Keep { property, places: places(&net, arguments)?, transitions: transitions(&net, arguments)? });
     net_convert::write(&arguments.output, format, &reduced.net, Extras::default(), console)?;
@@ -47,7 +48,7 @@ pub fn run(arguments: &NetReduce, console: &Console) -> Outcome {
     for (rule, times) in &reduced.applied {
         let _ = writeln!(out, "  {:<34}{times:>8}", rule.name());
     }
-    console.print(&out)
+    console.print_report(&out, &console.provenance(), false)
 }
 
 fn places(net: &Net, arguments: &NetReduce) -> Result<Vec<PlaceId>, Failure> {

@@ -60,7 +60,6 @@ impl Watcher {
     /// Sets the number of threads, and creates a watcher.
     pub fn new(limits: &Limits) -> Result<Self, Failure> {
         use_threads(limits)?;
-        guard::listen();
         sign_of_life::begin();
         // The bar is drawn on standard error, and only if that is a terminal.
         Self::drawing(limits, ProgressDrawTarget::stderr(), true)

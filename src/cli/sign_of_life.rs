@@ -5,7 +5,7 @@ use std::sync::{Mutex, Once, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::guard;
+use super::{guard, phase};
 
 /// Environment variable for the seconds between two lines; 0 for none.
 const VARIABLE: &str = "PETRIL_PROGRESS";
@@ -63,7 +63,7 @@ fn print(pause: Duration) {
 
 fn line(work: &Work) -> (Duration, String) {
     let elapsed = work.started.elapsed();
-    let what = if work.figures.is_empty() { guard::doing() } else { &work.figures };
+    let what = if work.figures.is_empty() { phase::of_process().name } else { &work.figures };
     (elapsed, format!("petril: {} s, {what}\n", elapsed.as_secs()))
 }
 

@@ -7,7 +7,7 @@ use petril::exchange::pnml::Extras;
 use super::args::Translate;
 use super::console::Console;
 use super::format::Format;
-use super::{Failure, Outcome, input, net_convert, output, shown};
+use super::{Failure, Outcome, input, net_convert, output, phase, shown};
 
 /// Maximum number of nodes drawn of a program; the file has about 100 MB then.
 const MAX_DRAWN: usize = 100_000;
@@ -21,8 +21,12 @@ pub fn run(arguments: &Translate, console: &Console) -> Outcome {
             let message = format!("a picture of {} nodes would show nothing; ", places + transitions);
             return Err(Failure::Message(message + "`petril draw --line N` draws one line of the program"));
         }
-        Format::Svg => output::write_text(&arguments.output, &draw::diagram(&system).svg())?,
+        Format::Svg => {
+            phase::begin("drawing the net");
+            output::write_text(&arguments.output, &draw::diagram(&system).svg())?;
+        }
         Format::Pnml => {
+            phase::begin("placing the nodes of the net");
             let (positions, notes, units) = (positions(&system), notes(&system, &source), system.units());
             let extras =
                 Extras { positions: Some(&positions), notes: Some(&notes), units: Some(&units), ..Extras::default() };

@@ -8,7 +8,7 @@ use notify::{RecursiveMode, Watcher as _};
 
 use super::console::Console;
 use super::seen::Seen;
-use super::{Failure, Outcome, guard, report::counted};
+use super::{Failure, Outcome, guard, phase, report::counted};
 
 /// Quiet period before files are inspected: editors write in several steps.
 const QUIET: Duration = Duration::from_millis(100);
@@ -21,12 +21,14 @@ const INTERRUPTED: u8 = 130;
 
 /// Repeats `check` on each change until interrupted.
 pub fn run(console: &Console, check: &dyn Fn() -> Outcome) -> Outcome {
-    guard::listen();
     loop {
         console.clear()?;
+        guard::restart();
         if let Err(Failure::Message(message)) = check() {
             console.error(&message);
         }
+        guard::rest();
+        phase::begin_asking("waiting for a change");
         let seen = console.take_seen();
         if guard::is_interrupted() {
             return Ok(ExitCode::from(INTERRUPTED));

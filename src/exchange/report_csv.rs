@@ -43,15 +43,19 @@ pub fn write(checked: &Checked<'_>) -> String {
     let rows = kinds.into_iter().flat_map(|(kind, answers)| answers.iter().map(move |answer| (kind, answer)));
     let rows = rows.map(|(kind, answer)| row(checked, kind, answer));
     let said = [("assumption", &checked.report.assumptions), ("warning", &checked.report.warnings)];
-    let said = said.into_iter().flat_map(|(kind, texts)| texts.iter().map(move |text| said_row(kind, text)));
+    let said = said.into_iter().flat_map(|(kind, texts)| texts.iter().map(move |text| said_row(checked, kind, text)));
     table::write(std::iter::once(COLUMNS.map(str::to_owned).to_vec()).chain(rows).chain(said))
 }
 
-/// A row with a kind and a sentence.
-fn said_row(kind: &str, sentence: &str) -> Vec<String> {
+/// A row with a kind and a sentence, and where it comes from.
+fn said_row(checked: &Checked<'_>, kind: &str, sentence: &str) -> Vec<String> {
     let cell = |column: &str| match column {
         "kind" => kind.to_owned(),
         "sentence" => sentence.to_owned(),
+        "tool" => Provenance::tool(),
+        "inputs" => checked.provenance.files(),
+        "options" => checked.provenance.options.clone(),
+        "command" => checked.provenance.command_line(),
         _ => String::new(),
     };
     COLUMNS.map(cell).to_vec()

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use support::process::{Run, petril, run};
@@ -69,6 +69,30 @@ fn no_verb_writes_into_its_inputs() {
     let project = folder.join("project");
     for (form, input) in [("--junit", "petril.toml"), ("--sarif", "p.il")] {
         refuses(&project, input, &["check", "--no-cache", form, input]);
+    }
+}
+
+#[test]
+fn a_project_refuses_its_inputs_before_any_work() {
+    let folder = folder();
+    let project = folder.path().join("project");
+    let text = "[[check]]\nprogram = \"p.il\"\nrequirements = \"p.csv\"\nplants = \"n.net\"\n";
+    fs::write(project.join("petril.toml"), text).unwrap();
+    fs::write(project.join("p.csv"), "requirement follows: AG (q = a);\n").unwrap();
+    fs::write(project.join("n.net"), "pl {a=1} (1)\n").unwrap();
+    // Work would find this.
+    fs::write(project.join("p.il"), "PROGRAM p\n").unwrap();
+    for (form, output, input) in [
+        ("--junit", "p.il", "p.il"),
+        ("--sarif", "n.net", "n.net"),
+        ("--junit", "p.csv", "p.csv"),
+        // The table of the program `p` in this folder.
+        ("--csv", ".", "p.csv"),
+    ] {
+        let line = ["check", "--no-cache", form, output];
+        refuses(&project, input, &line);
+        let run = petril(&project, &line);
+        assert_eq!(run.stderr.lines().count(), 1, "{line:?}\n{}", run.stderr);
     }
 }
 
@@ -140,6 +164,18 @@ fn what_is_replaced_keeps_its_mode_and_links_are_followed() {
     assert!(write("/dev/stdout").stdout.contains("kind,name"));
 }
 
+#[cfg(unix)]
+#[test]
+fn another_name_of_what_is_replaced_keeps_the_old_content() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("old.csv"), "old").unwrap();
+    fs::hard_link(folder.join("old.csv"), folder.join("copy.csv")).unwrap();
+    assert_eq!(petril(folder, &["check", "p.il", "-r", "AG (q = a)", "--csv", "old.csv"]).code, 0);
+    assert!(fs::read_to_string(folder.join("old.csv")).unwrap().starts_with("kind,name"));
+    assert_eq!(fs::read_to_string(folder.join("copy.csv")).unwrap(), "old");
+}
+
 /// Instances within instances: 2 of each, so that a program of 2 kB has 2ⁿ of the innermost.
 fn nested(depth: usize) -> String {
     let mut text = String::from(
@@ -202,6 +238,134 @@ fn time_is_kept_in_every_phase() {
     assert_eq!(left.len(), 2, "nothing is left behind: {left:?}");
 }
 
+/// A net in TINA's format: a token goes around so many places.
+fn ring(places: usize) -> String {
+    (0..places).fold(String::from("pl p0 (1)\n"), |mut text, at| {
+        let _ = writeln!(text, "tr t{at} p{at} -> p{}", (at + 1) % places);
+        text
+    })
+}
+
+/// A PLCopen project whose one program has so many lines.
+fn plcopen(lines: usize) -> String {
+    format!(
+        "<?xml version=\"1.0\"?><project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"><types><dataTypes/><pous>\
+         <pou name=\"p\" pouType=\"program\"><interface><inputVars><variable name=\"a\"><type><BOOL/></type></variable>\
+         </inputVars><outputVars><variable name=\"q\"><type><BOOL/></type></variable></outputVars></interface><body><IL>\
+         <xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{}</xhtml></IL></body></pou></pous></types></project>",
+        "LD a\nST q\n".repeat(lines / 2)
+    )
+}
+
+#[test]
+fn time_is_kept_while_nets_and_long_programs_are_read() {
+    let folder = TempDir::new().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("ring.net"), ring(100_000)).unwrap();
+    fs::write(folder.join("p.xml"), plcopen(600_000)).unwrap();
+    for verb in ["convert", "reduce"] {
+        for limit in [["--timeout", "0.1"], ["--max-memory", "20"]] {
+            let run = within(folder, &[&["net", verb, "ring.net", "-o", "x.net"], &limit[..]].concat());
+            assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{verb} {limit:?} {}", run.stderr);
+            let said = ["error: the time limit of 0.1 s was reached", "error: the limit of 20 MiB was reached"];
+            assert!(said.iter().any(|said| run.stderr.contains(said)), "{}", run.stderr);
+            assert!(!folder.join("x.net").exists());
+        }
+    }
+    let run = within(folder, &["check", "p.xml", "-r", "AG (q = a)", "--timeout", "0.1"]);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    assert!(run.stderr.contains("unknown: the time limit of 0.1 s was reached, while reading the program"));
+}
+
+#[test]
+fn a_report_that_is_ended_says_where_it_comes_from() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
+    let line = ["check", "nested.il", "-r", "AG (q -> q)", "--timeout", "0.2", "--json"];
+    let run = within(folder.path(), &line);
+    let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!((run.code, document["verdict"].as_str()), (3, Some("unknown")), "{}", run.stdout);
+    let provenance = &document["provenance"];
+    let words: Vec<&str> = provenance["command"].as_array().unwrap().iter().filter_map(|word| word.as_str()).collect();
+    assert_eq!(words[1..], line);
+    assert_eq!(provenance["inputs"][0]["file"], "nested.il");
+    assert_eq!(provenance["inputs"][0]["sha256"].as_str().map(str::len), Some(64));
+}
+
+/// A project of `nested.il`, which takes long to flatten, and `p.il`, which does not.
+fn slow_project() -> TempDir {
+    let folder = folder();
+    let text = "[defaults]\ntimeout = 0.4\nformulas = [\"AG (q -> q)\"]\n[[check]]\nprogram = \"nested.il\"\n[[check]]\nprogram = \"p.il\"\n";
+    fs::write(folder.path().join("petril.toml"), text).unwrap();
+    fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
+    folder
+}
+
+#[test]
+fn a_program_of_a_project_that_takes_too_long_is_not_waited_for() {
+    let folder = slow_project();
+    // One thread: the second program is checked though the first one still takes the worker.
+    for threads in ["1", "2"] {
+        let run = within(folder.path(), &["check", "--no-cache", "--threads", threads]);
+        assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
+        assert!(
+            run.stderr.starts_with("unknown: nested: the time limit of 0.4 s was reached, while "),
+            "{}",
+            run.stderr
+        );
+        assert!(run.stdout.contains("2 programs: 1 hold, 1 unknown\n1 requirement: 1 hold\n"), "{}", run.stdout);
+    }
+    let run = within(folder.path(), &["check", "--no-cache", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!((run.code, &document["verdict"]), (3, &"unknown".into()));
+    let verdicts = [0, 1].map(|at| document["programs"][at]["verdict"].as_str());
+    assert_eq!(verdicts, [Some("unknown"), Some("holds")]);
+}
+
+#[test]
+fn time_is_kept_while_files_are_watched() {
+    let folder = slow_project();
+    let line = ["check", "nested.il", "-r", "AG (q -> q)", "--watch", "--timeout", "0.4", "--no-cache"];
+    let run = within(folder.path(), &line);
+    assert_eq!(run.code, 3, "{}", run.stderr);
+    assert!(run.stderr.contains("unknown: the time limit of 0.4 s was reached, while "), "{}", run.stderr);
+}
+
+/// Runs, sends a signal after half a second, and gives the exit code and standard error.
+#[cfg(unix)]
+fn signalled(folder: &Path, signal: &str, line: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_petril"));
+    command.args(line).current_dir(folder).env("PETRIL_PROGRESS", "0").stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    let started = Instant::now();
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert!(started.elapsed() < Duration::from_secs(20), "{line:?} takes {:?}", started.elapsed());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_what_does_not_ask() {
+    let folder = slow_project();
+    let (code, said) = signalled(folder.path(), "INT", &["check", "nested.il", "-r", "AG (q -> q)", "--no-cache"]);
+    assert!(code == Some(3) && said.starts_with("unknown: interrupted, while "), "{code:?} {said}");
+    let text = fs::read_to_string(folder.path().join("petril.toml")).unwrap().replace("timeout = 0.4", "timeout = 900");
+    fs::write(folder.path().join("petril.toml"), text).unwrap();
+    let (code, said) = signalled(folder.path(), "INT", &["check", "--no-cache"]);
+    assert!(code == Some(3) && said.starts_with("unknown: nested: interrupted, while "), "{code:?} {said}");
+}
+
+/// The standard library aborts where an allocation fails.
+#[cfg(unix)]
+#[test]
+fn an_abort_is_an_end_with_an_exit_code() {
+    let folder = slow_project();
+    let (code, said) = signalled(folder.path(), "ABRT", &["check", "nested.il", "-r", "AG (q -> q)", "--no-cache"]);
+    assert_eq!(code, Some(2), "{said}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_is_kept_in_every_phase() {
@@ -209,7 +373,9 @@ fn memory_is_kept_in_every_phase() {
     fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
     let run = within(folder.path(), &["check", "nested.il", "-r", "AG (q -> q)", "--max-memory", "100"]);
     assert_eq!(run.code, 3, "{}", run.stderr);
-    assert!(run.stderr.contains("unknown: the limit of 100 MiB was reached: "), "{}", run.stderr);
+    let used = run.stderr.strip_prefix("unknown: the limit of 100 MiB was reached: ");
+    let used: u64 = used.unwrap_or_else(|| panic!("{}", run.stderr)).split(' ').next().unwrap().parse().unwrap();
+    assert!((101..=214).contains(&used), "{used} MiB");
     let run = within(folder.path(), &["translate", "nested.il", "-o", "x.net", "--max-memory", "100"]);
     assert_eq!(run.code, 2, "{}", run.stderr);
     assert!(run.stderr.contains("error: the limit of 100 MiB was reached: "), "{}", run.stderr);
@@ -222,7 +388,7 @@ fn a_small_address_space_is_no_abort() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("nested.il"), nested(16)).unwrap();
     let mut command = Command::new("sh");
-    let line = "ulimit -v 700000; \"$0\" check nested.il -r 'AG (q -> q)' --threads 1";
+    let line = "ulimit -v 700000; \"$0\" check nested.il -r 'AG (q -> q)' --threads 1 --max-memory 100000";
     command.args(["-c", line, env!("CARGO_BIN_EXE_petril")]).current_dir(folder.path());
     let run = run(command);
     assert!(run.code == 3 && run.stderr.contains("unknown: the limit of "), "{} {}", run.code, run.stderr);

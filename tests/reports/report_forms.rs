@@ -322,3 +322,58 @@ fn what_users_write_cannot_break_a_form() {
     let html = fs::read_to_string(folder.path().join("h.html")).unwrap();
     assert!(!html.contains("<img"), "the sentence is markup");
 }
+
+/// An assumption, a warning and a requirement, each with the words of the command.
+#[test]
+fn every_row_of_a_table_says_where_it_comes_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "PROGRAM p\nVAR_INPUT a : BOOL; END_VAR\nVAR_OUTPUT q : BOOL; END_VAR\nLD a\nST q\nEND_PROGRAM\n";
+    fs::write(folder.path().join("p.il"), text).unwrap();
+    let run = petril(folder.path(), &["check", "p.il", "-r", "!q | a", "--csv", "f.csv"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let mut table = csv::Reader::from_path(folder.path().join("f.csv")).unwrap();
+    let heads = table.headers().unwrap().clone();
+    let column = |name| heads.iter().position(|head| head == name).unwrap();
+    let [kind, tool, inputs, options, command] = ["kind", "tool", "inputs", "options", "command"].map(column);
+    let mut kinds = Vec::new();
+    for row in table.records() {
+        let row = row.unwrap();
+        assert!(row[tool].starts_with("petril 0."), "{row:?}");
+        assert!(row[inputs].starts_with("p.il ") && row[inputs].len() == "p.il ".len() + 64, "{row:?}");
+        assert_eq!(row[options].len(), 64, "{row:?}");
+        assert_eq!(&row[command], "petril check p.il -r '!q | a' --csv f.csv");
+        kinds.push(row[kind].to_owned());
+    }
+    kinds.dedup();
+    assert_eq!(kinds, ["requirement", "check", "assumption", "warning"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn texts_about_nets_say_in_a_file_where_they_come_from() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("n.net"), "pl a (1)\ntr t a -> b\n").unwrap();
+    for (verb, options) in
+        [("info", ""), ("explore", ""), ("check", "-r 'EF marked(\"b\")'"), ("reduce", "--keep b -o m.net")]
+    {
+        let command = format!("net {verb} n.net {options}");
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &format!("\"$0\" {command} > f.txt"), env!("CARGO_BIN_EXE_petril")]);
+        let run = support::process::run({
+            shell.current_dir(folder.path());
+            shell
+        });
+        assert_eq!(run.code, 0, "{verb}: {}", run.stderr);
+        let text = fs::read_to_string(folder.path().join("f.txt")).unwrap();
+        let command = format!("\ncommand: petril {}\n", command.trim());
+        for part in ["\nmade by: petril 0.", &command, "\ninput: n.net, sha256 ", "\noptions: sha256 "] {
+            assert!(text.contains(part), "{verb} lacks {part}\n{text}");
+        }
+        let words = text.lines().find_map(|line| line.strip_prefix("command: petril ")).unwrap();
+        let mut again = std::process::Command::new("sh");
+        again.args(["-c", &format!("\"$0\" {words}"), env!("CARGO_BIN_EXE_petril")]).current_dir(folder.path());
+        let piped = support::process::run(again).stdout;
+        assert!(!piped.contains("made by"), "{verb}\n{piped}");
+        assert_eq!(text.strip_prefix(&piped).map(|rest| rest.starts_with("\nmade by: ")), Some(true), "{verb}\n{text}");
+    }
+}

@@ -62,7 +62,10 @@ pub fn run(mut command: Command) -> Run {
     };
     let (stdout, stderr) = (text(stdout), text(stderr));
     let code = status.code().unwrap_or_else(|| panic!("{command:?} died: {status}\n{stderr}"));
-    assert!(!stderr.contains("panicked"), "{command:?}\n{stderr}");
+    // Neither is hidden by an exit code.
+    for failed in ["panicked", "overflowed its stack"] {
+        assert!(!stderr.contains(failed), "{command:?}\n{stderr}");
+    }
     Run { code, stdout, stderr }
 }
 

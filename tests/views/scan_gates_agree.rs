@@ -67,6 +67,59 @@ proptest! {
     }
 }
 
+/// Code of Booleans in which control only goes on: each number is an instruction, one in four a jump to a later line.
+fn forward(numbers: &[u32]) -> FlatProgram {
+    let lines = numbers.iter().enumerate().map(|(at, &number)| {
+        let variable = ["a", "b", "c", "q", "r", "s"][(number >> 8) as usize % 6];
+        let written = ["q", "r", "s"][(number >> 8) as usize % 3];
+        // Lines count from 1, and the end is one of them.
+        let target = at + 3 + (number >> 8) as usize % (numbers.len() - at).min(12);
+        match number % 12 {
+            0 => format!("JMPC {target}"),
+            1 => format!("JMPCN {target}"),
+            2 => format!("JMP {target}"),
+            3 | 4 => format!("LD {variable}"),
+            5 => format!("AND {variable}"),
+            6 => format!("XOR {variable}"),
+            7 | 8 => format!("ST {written}"),
+            9 => format!("STN {written}"),
+            10 => format!("S {written}"),
+            _ => format!("R {written}"),
+        }
+    });
+    let declarations = "in a BOOL\nin b BOOL\nin c BOOL\nvar q BOOL\nvar r BOOL\nvar s BOOL";
+    assemble(declarations, &format!("LD a\n{}", lines.collect::<Vec<_>>().join("\n")))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(programs(1000)))]
+
+    #[test]
+    fn where_control_meets(numbers in proptest::collection::vec(any::<u32>(), 1..60), seed in any::<u64>()) {
+        let program = forward(&numbers);
+        let gates = ScanGates::of(&program, Tolerated::default()).unwrap();
+        prop_assert_eq!(agree(&program, &gates, Tolerated::default(), seed)?, 0);
+    }
+}
+
+/// By hand: ways that come with the same values, and one that goes on where nobody else does.
+#[test]
+fn where_few_ways_meet() {
+    let declarations = "in a BOOL\nin b BOOL\nin c BOOL\nvar q BOOL\nvar r BOOL";
+    for code in [
+        // q keeps its value if a or b.
+        "LD a\nJMPC 7\nLD b\nJMPC 7\nLD c\nST q",
+        // q is b, or r is c.
+        "LD a\nJMPC 6\nLD b\nST q\nJMP 8\nLD c\nST r",
+    ] {
+        let program = assemble(declarations, code);
+        let gates = ScanGates::of(&program, Tolerated::default()).unwrap();
+        for seed in 0..8 {
+            agree(&program, &gates, Tolerated::default(), seed).unwrap();
+        }
+    }
+}
+
 /// Every function of two numbers of every kind of type, on numbers that are computed.
 #[test]
 fn on_every_function() {

@@ -8,6 +8,7 @@ use fixedbitset::FixedBitSet;
 
 use crate::budget::Stop;
 use crate::space::DeadEnd;
+use crate::store::growth;
 use petril_base::Rows;
 
 /// Reachability graph of states numbered in breadth-first order: numbers never decrease with the distance.
@@ -260,6 +261,12 @@ impl Graph {
             }
         }
         parents
+    }
+
+    /// Bytes that its lists take at once, beside those in use, if all of so many states are expanded and so many steps added.
+    pub(super) fn growth(&self, states: usize, steps: usize) -> u64 {
+        let rows = states.saturating_sub(self.expanded());
+        growth(&self.row_of, rows) + growth(&self.starts, rows) + growth(&self.targets, steps)
     }
 
     /// Memory in use in bytes, without the lists built on first use.

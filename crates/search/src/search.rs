@@ -6,10 +6,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::budget::{Budget, Progress, Stop};
+use crate::budget::{Budget, Progress, Stop, is_available};
 use crate::graph::Graph;
 use crate::space::{StateSpace, Step, Successors};
-use crate::store::{Store, hash};
+use crate::store::{Store, growth, hash};
 use crate::table::Table;
 
 /// Maximum number of successors computed before they are inserted, unless one state alone has more.
@@ -20,6 +20,9 @@ const LEAST: u64 = 1 << 10;
 
 /// Number of states below which a batch is expanded on one thread.
 const ALONE: usize = 64;
+
+/// Bytes that are always there.
+const SMALL: u64 = 1 << 22;
 
 /// Number of states whose rows are looked up together.
 const TOGETHER: usize = 64;
@@ -87,12 +90,12 @@ impl Search<'_> {
     fn level(&mut self, end: u32, watch: &mut dyn FnMut(&Progress) -> Option<String>) -> Option<Stop> {
         let (mut batch, mut found): (Batch, Vec<Successors>) = Default::default();
         while self.graph.expanded() < end as usize {
-            let mut stop = self.exhausted();
+            let waiting: usize = found.iter().map(|found| found.words.len() / self.space.words()).sum();
+            let mut stop = self.exhausted(waiting + BATCH as usize);
             if stop.is_none() {
                 stop = watch(&self.progress()).map(Stop::Watcher);
             }
             let rest = self.graph.expanded() as u32..end;
-            let waiting: usize = found.iter().map(|found| found.words.len() / self.space.words()).sum();
             let next = if stop.is_none() { self.batch(rest, waiting as u64) } else { None };
             let Some(next) = next else {
                 self.enter(&batch.ids, &found);
@@ -176,10 +179,21 @@ impl Search<'_> {
         self.graph.bytes() + self.states.bytes() + self.rows.bytes() + self.firsts.capacity() as u64 * 4
     }
 
-    fn exhausted(&self) -> Option<Stop> {
+    /// Why the next batch, of so many successors, is not to be entered.
+    fn exhausted(&self, successors: usize) -> Option<Stop> {
         let states = self.budget.states;
-        if self.bytes() > self.budget.bytes {
+        let rows = self.rows.growth(successors + TOGETHER);
+        let (table, list) = self.states.growth(successors);
+        let lists = list + self.graph.growth(self.states.len(), successors) + growth(&self.firsts, successors);
+        let most = self.budget.bytes.max(SMALL);
+        // A table and the larger one that is made of it are there together; a list becomes a longer one in its place.
+        if self.bytes() > self.budget.bytes || rows.max(table) > 0 && self.bytes() + rows.max(table) > most {
             Some(Stop::Bytes(self.budget.bytes))
+        } else if rows + table + lists > SMALL && !is_available(rows + table + lists) {
+            Some(Stop::Watcher(format!(
+                "the system has no more memory than the {} MiB of the states",
+                self.bytes() >> 20
+            )))
         } else if self.states.len() as u64 > states {
             Some(Stop::States(states))
         } else {

@@ -68,10 +68,23 @@ impl Store {
         }
     }
 
+    /// Bytes that entering so many states more takes at once, beside those in use: of the table, which becomes another one, and of the
+    /// list.
+    pub fn growth(&self, more: usize) -> (u64, u64) {
+        (self.table.growth(more + BATCH), growth(&self.arena, more.saturating_mul(self.words)))
+    }
+
     /// Memory in use, in bytes.
     pub fn bytes(&self) -> u64 {
         self.arena.capacity() as u64 * 8 + self.table.bytes()
     }
+}
+
+/// Bytes that a list takes at once if so many items are added.
+pub fn growth<T>(list: &Vec<T>, more: usize) -> u64 {
+    let len = list.len().saturating_add(more);
+    let grown = if len > list.capacity() { len.max(list.capacity().saturating_mul(2)) } else { 0 };
+    (grown as u64).saturating_mul(size_of::<T>() as u64)
 }
 
 /// Hash of words, by folded 128-bit products.
@@ -107,6 +120,27 @@ mod tests {
         assert!(store.bytes() >= 5000 * 3 * 8);
         let twice = [state(6000), state(3), state(6000)].concat();
         assert_eq!(enter(&mut store, &twice), [5000, 3, 5000]);
+    }
+
+    #[test]
+    fn growth_is_known_beforehand() {
+        let mut store = Store::new(2);
+        let (mut tables, mut lists) = (0, 0);
+        for first in (0..100_000_u64).step_by(500) {
+            let (table, list) = store.growth(500);
+            let (table_before, list_before) = (store.table.bytes(), store.arena.capacity());
+            enter(&mut store, &(first..first + 500).flat_map(|i| [i, 7]).collect::<Vec<_>>());
+            if store.table.bytes() > table_before {
+                assert_eq!(store.table.bytes(), table);
+                tables += 1;
+            }
+            let bytes = store.arena.capacity() as u64 * 8;
+            assert_eq!(store.arena.capacity() > list_before, list > 0);
+            assert!(list == 0 || (list..=2 * list).contains(&bytes), "{list} {bytes}");
+            lists += usize::from(list > 0);
+        }
+        // From 448 numbers to 114,688 the table becomes larger eight times, and the list from 1000 words to 256,000 as often.
+        assert_eq!((tables, lists), (8, 9));
     }
 
     #[test]

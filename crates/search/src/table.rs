@@ -97,6 +97,15 @@ impl Table {
         }
     }
 
+    /// Bytes that making room for so many numbers more takes at once, beside those in use.
+    pub fn growth(&self, more: usize) -> u64 {
+        let mut lines = self.lines.len();
+        while self.len + more > lines * LINE / 8 * 7 {
+            lines *= 2;
+        }
+        if lines == self.lines.len() { 0 } else { (lines * size_of::<Line>()) as u64 }
+    }
+
     /// Memory in use, in bytes.
     pub fn bytes(&self) -> u64 {
         (self.lines.capacity() * size_of::<Line>()) as u64

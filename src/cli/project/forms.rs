@@ -9,11 +9,22 @@ use serde_json::Value;
 
 use super::run::Judged;
 use crate::cli::forms::{self, Forms, stamp};
-use crate::cli::{Failure, output, reason, shown};
+use crate::cli::{Failure, output, phase, reason, shown};
+
+/// Refuses forms in the place of inputs, for programs with these names.
+pub fn refuse<'n>(forms: &Forms, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
+    let mut outputs: Vec<PathBuf> = forms.junit.iter().chain(&forms.sarif).cloned().collect();
+    for name in names {
+        let within = |folder: &Option<PathBuf>, ending| folder.as_ref().map(|folder| path(folder, name, ending));
+        outputs.extend(within(&forms.html, ".html").into_iter().chain(within(&forms.csv, ".csv")));
+    }
+    output::refuse(&outputs)
+}
 
 /// Writes the requested files for all programs that could be checked.
 pub fn write(forms: &Forms, results: &[Judged]) -> Result<(), Failure> {
-    forms::refuse(forms)?;
+    refuse(forms, results.iter().map(|result| result.name.as_str()))?;
+    phase::begin_asking("writing the report");
     let done = || results.iter().filter_map(|result| Some((result, result.done.as_ref().ok()?)));
     let told: Vec<(&str, Checked<'_>, Stamp)> =
         done().map(|(result, done)| (result.name.as_str(), done.told(), stamp(done.started))).collect();
@@ -50,13 +61,17 @@ fn joined(mut all: Value, mut more: Value) -> Value {
     all
 }
 
-/// Path for a program's file in a folder, which is created if necessary. A name like `lines/press` is a path inside the
-/// folder, never outside.
-fn file(folder: &Path, name: &str, ending: &str) -> Result<PathBuf, Failure> {
+/// The file of a program in a folder. A name like `lines/press` is a path in it, and never one out of it.
+fn path(folder: &Path, name: &str, ending: &str) -> PathBuf {
     let inside = Path::new(name).components().filter(|part| matches!(part, Component::Normal(_)));
     let mut path = folder.join(inside.collect::<PathBuf>()).into_os_string();
     path.push(ending);
-    let path = PathBuf::from(path);
+    PathBuf::from(path)
+}
+
+/// As [`path`]; the folder is made if there is none.
+fn file(folder: &Path, name: &str, ending: &str) -> Result<PathBuf, Failure> {
+    let path = path(folder, name, ending);
     let parent = path.parent().unwrap_or(folder);
     let cannot = |error| Failure::Message(format!("cannot make the folder `{}`: {}", shown(parent), reason(&error)));
     fs::create_dir_all(parent).map_err(cannot)?;

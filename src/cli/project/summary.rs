@@ -5,6 +5,7 @@ use std::path::Path;
 use petril::verdict::{Answer, Verdict};
 use petril::witness::{Column, Table};
 
+use super::run::Judged;
 use crate::cli::check::Done;
 use crate::cli::console::Console;
 use crate::cli::report::{counted, indent};
@@ -15,11 +16,13 @@ pub struct Line<'a> {
     name: &'a str,
     /// None if the check of the program failed.
     done: Option<&'a Done>,
+    /// Nothing if the program could not be checked.
+    verdict: Option<Verdict>,
 }
 
 impl<'a> Line<'a> {
-    pub fn of(name: &'a str, done: Option<&'a Done>) -> Self {
-        Self { name, done }
+    pub fn of(judged: &'a Judged) -> Self {
+        Self { name: &judged.name, done: judged.done.as_ref().ok(), verdict: judged.verdict() }
     }
 
     fn answers(&self) -> &'a [Answer] {
@@ -72,7 +75,7 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
             None => {
                 let mut row = vec![String::new(); 8];
                 row[0] = line.name.to_owned();
-                row[5] = "error".to_owned();
+                row[5] = line.verdict.map_or("error", Verdict::word).to_owned();
                 row
             }
         };
@@ -85,9 +88,8 @@ pub fn summary(path: &Path, lines: &[Line<'_>], console: &Console) -> String {
 
 /// Programs by verdict, `3 programs: 2 hold, 1 violated`.
 fn programs(lines: &[Line<'_>]) -> String {
-    let with =
-        |verdict| lines.iter().filter_map(|line| line.done).filter(|done| done.report.verdict() == verdict).count();
-    let wrong = lines.iter().filter(|line| line.done.is_none()).count();
+    let with = |verdict| lines.iter().filter(|line| line.verdict == Some(verdict)).count();
+    let wrong = lines.iter().filter(|line| line.verdict.is_none()).count();
     let mut parts = vec![format!("{} hold", with(Verdict::Holds))];
     parts.extend((with(Verdict::Violated) > 0).then(|| format!("{} violated", with(Verdict::Violated))));
     parts.extend((with(Verdict::Unknown) > 0).then(|| format!("{} unknown", with(Verdict::Unknown))));

@@ -8,7 +8,7 @@ mod printed;
 mod summary;
 mod why;
 
-pub use layout::{counted, indent};
+pub use layout::{counted, indent, paragraph};
 pub use printed::Printed;
 
 use petril::explore::Stop;
@@ -20,7 +20,6 @@ use petril::witness::{Column, Table};
 
 use super::args::Check;
 use super::console::Console;
-use layout::paragraph;
 use summary::{checks, summary, table};
 
 /// Context of the text report.

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::args::SifCheck;
 use super::specification;
 use crate::cli::console::Console;
-use crate::cli::{Outcome, SUCCESS, guard, report::counted};
+use crate::cli::{Outcome, SUCCESS, guard, phase, report::counted};
 
 /// Text in place of a count that is too large.
 const TOO_MANY: &str = "more than can be counted";
@@ -21,13 +21,12 @@ const TOO_MANY: &str = "more than can be counted";
 pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     let read = specification(&arguments.specification, console)?;
     let specification = &read.specification;
-    guard::listen();
     let stop: Stop = Arc::new(guard::is_asked);
-    // Counting has its own limits; the sanity checks are limited by time only.
-    guard::phase("counting valuations");
+    // Counting is limited by itself, and questions may take all the time there is.
+    phase::begin_asking("counting valuations");
     let counts: Vec<Vec<Counts>> =
         (0..specification.functions.len()).map(|function| counts(specification, function, &stop)).collect();
-    guard::phase("asking whether the specification makes sense");
+    phase::begin_asking("asking whether the specification makes sense");
     let findings = check(specification, &stop);
     for (file, source) in read.sources.iter().enumerate() {
         let here = findings.iter().filter(|finding| finding.place.file == file);
@@ -37,7 +36,7 @@ pub fn run(arguments: &SifCheck, console: &Console) -> Outcome {
     if arguments.json {
         console.print_json(document(specification, &findings, &counts))?;
     } else {
-        console.print(&text(specification, &counts))?;
+        console.print_report(&text(specification, &counts), &console.provenance(), false)?;
     }
     let has = |doubt| findings.iter().any(|finding| finding.doubt == doubt);
     Ok(match () {

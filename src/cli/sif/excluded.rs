@@ -9,20 +9,20 @@ use petril::witness::{Column, Table};
 use super::args::SifExcluded;
 use super::{planned, specification, valuations};
 use crate::cli::console::Console;
-use crate::cli::{Outcome, SUCCESS, guard};
+use crate::cli::{Outcome, SUCCESS, phase};
 
 pub fn run(arguments: &SifExcluded, console: &Console) -> Outcome {
-    guard::listen();
     let read = specification(&arguments.specification, console)?;
     let functions = planned::functions(&arguments.function, &read.specification)?;
     let limits = Limits { tests: arguments.limit, ..planned::limits() };
+    phase::begin_asking("counting valuations");
     let (mut texts, mut is_counted) = (Vec::new(), true);
     for function in functions {
         let excluded = sif::excluded(&read.specification, function, &limits);
         is_counted &= excluded.excluded.is_some();
         texts.push(text(&read.specification, function, &excluded, console.output_width()));
     }
-    console.print(&texts.join("\n"))?;
+    console.print_report(&texts.join("\n"), &console.provenance(), false)?;
     Ok(if is_counted { SUCCESS } else { ExitCode::from(3) })
 }
 

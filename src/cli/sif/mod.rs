@@ -19,7 +19,7 @@ use petril::source::Source;
 
 use super::console::Console;
 use super::input::{MAX_TEXT, source};
-use super::{Failure, Outcome, guard};
+use super::{Failure, Outcome, phase};
 use args::SifVerb;
 
 pub fn run(verb: &SifVerb, console: &Console) -> Outcome {
@@ -45,7 +45,7 @@ fn specification(paths: &[PathBuf], console: &Console) -> Result<Read, Failure> 
     let sources: Result<Vec<Source>, Failure> =
         paths.iter().map(|path: &PathBuf| source(Path::new(path), MAX_TEXT, console)).collect();
     let sources = sources?;
-    guard::phase("reading the specification");
+    phase::begin("reading the specification");
     let (specification, diagnostics) = Specification::read(&sources);
     for (source, diagnostics) in sources.iter().zip(&diagnostics) {
         console.diagnostics(diagnostics, source);

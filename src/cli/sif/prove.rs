@@ -17,7 +17,7 @@ use super::args::SifProve;
 use super::{planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::report::{counted, indent};
-use crate::cli::{self, check, guard, input};
+use crate::cli::{self, check, guard, input, phase};
 
 pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     let (program, specifications) = split(&arguments.files)?;
@@ -29,8 +29,7 @@ pub fn run(arguments: &SifProve, console: &Console) -> cli::Outcome {
     let tolerated = arguments.meaning.tolerated();
     let subject = Subject::new(&read.specification, &program.flat, tolerated, &functions)
         .map_err(|found| unbound(&found, &read.sources, console))?;
-    guard::listen();
-    guard::phase("proving");
+    phase::begin_asking("proving");
     let options = Options { scans: arguments.scans.into(), stop: Arc::new(guard::is_asked), ..Options::default() };
     let mut proof = prove(&subject, &options);
     let warnings = console.warnings();

@@ -18,20 +18,19 @@ use super::{Read, planned, specification, unbound};
 use crate::cli::console::{Colour, Console};
 use crate::cli::input::{Program, program};
 use crate::cli::report::counted;
-use crate::cli::{Outcome, SUCCESS, forms, guard, output, progress};
+use crate::cli::{Outcome, SUCCESS, forms, guard, output, phase, progress};
 
 /// Maximum number of listed tests or mutants.
 const MAX_TOLD: usize = 40;
 
 pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
-    guard::listen();
     let started = Instant::now();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     let Program { flat, source } = program(&arguments.program, &arguments.meaning.reading, console)?;
     output::refuse([&arguments.html, &arguments.junit, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = planned::limits();
-    guard::phase("choosing tests");
+    phase::begin_asking("choosing tests");
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
         None => planned::made(&specification, &functions, arguments.criterion, &limits),
@@ -39,7 +38,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
     let start = if arguments.continued { Start::Continued } else { Start::PowerOn };
     let runner = Runner::new(&specification, &flat, arguments.meaning.tolerated(), start, &plans);
     let runner = runner.map_err(|found| unbound(&found, &sources, console))?;
-    guard::phase("running tests");
+    phase::begin_asking("running tests");
     let results = runner.run(&plans);
     let is_passed = results.iter().flat_map(|run| &run.tests).all(|test| test.ending == Ending::Passed);
     if arguments.mutants && !is_passed {
@@ -49,7 +48,7 @@ pub fn run(arguments: &SifRun, console: &Console) -> Outcome {
         let tolerated = arguments.meaning.tolerated();
         let tested: Vec<usize> = plans.iter().map(|plan| plan.function).collect();
         let decide = |program: &FlatProgram| decide(&specification, program, tolerated, &tested);
-        guard::phase("looking for faults");
+        phase::begin_asking("looking for faults");
         let mutants = mutants(&flat, &source);
         let bar = progress::steps(mutants.len(), "faults");
         let found = hunt(&runner, &plans, mutants, &decide, &|| {

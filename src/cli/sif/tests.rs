@@ -12,7 +12,7 @@ use super::args::SifTests;
 use super::{Read, planned, specification, valuations};
 use crate::cli::console::Console;
 use crate::cli::report::counted;
-use crate::cli::{Outcome, SUCCESS, guard, output};
+use crate::cli::{Outcome, SUCCESS, output, phase};
 
 /// Maximum number of functions whose tests are printed; above it, only counts.
 const MAX_SHOWN: usize = 5;
@@ -21,15 +21,15 @@ const MAX_SHOWN: usize = 5;
 const MAX_TOLD: usize = 100;
 
 pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
-    guard::listen();
     let Read { specification, sources } = specification(&arguments.specification, console)?;
     output::refuse([&arguments.html, &arguments.csv].into_iter().flatten())?;
     let functions = planned::functions(&arguments.function, &specification)?;
     let limits = Limits { tests: arguments.limit, ..planned::limits() };
+    phase::begin_asking("choosing tests");
     if arguments.compare {
-        return console.print(&compared(&specification, &functions, &limits).within(console.output_width()));
+        let table = compared(&specification, &functions, &limits).within(console.output_width());
+        return console.print_report(&table, &console.provenance(), false);
     }
-    guard::phase("choosing tests");
     let plans = match &arguments.tests {
         Some(path) => planned::read(path, &specification, &functions, &limits, console)?,
         None => planned::made(&specification, &functions, arguments.criterion, &limits),
@@ -56,10 +56,11 @@ pub fn run(arguments: &SifTests, console: &Console) -> Outcome {
         console.print_json(json::document(&sheets))?;
     } else if plans.len() <= MAX_SHOWN {
         let texts: Vec<String> = plans.iter().map(|plan| text(&sheets, plan, console)).collect();
-        console.print(&texts.join("\n"))?;
+        console.print_report(&texts.join("\n"), sheets.provenance, false)?;
     } else {
         let hint = "\nthe tests of one function: --function NAME\n";
-        console.print(&(figures(&specification, &plans).within(console.output_width()) + hint))?;
+        let table = figures(&specification, &plans).within(console.output_width());
+        console.print_report(&(table + hint), sheets.provenance, false)?;
     }
     let is_all = plans.iter().all(|plan| plan.incomplete.is_none());
     Ok(if is_all { SUCCESS } else { ExitCode::from(3) })

@@ -19,7 +19,7 @@ use super::console::Console;
 use super::input::Program;
 use super::interactive::Screen;
 use super::report::counted;
-use super::{Failure, Outcome, SUCCESS, guard, input, interactive, output, shown};
+use super::{Failure, Outcome, SUCCESS, input, interactive, output, phase, shown};
 use scans::{Run, scans};
 use steering::Steering;
 
@@ -42,6 +42,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     // The net is needed only to step through it, and to list a scan line by line, which plays it on the net, too.
     let is_played = arguments.interactive || arguments.by_line.is_some();
     let compose = if is_played { System::with_domains } else { System::without_net };
+    phase::begin("composing the net");
     let system = compose(flat, plant, domains);
     let until = arguments.until.as_ref().map(|text| until(text, &system, console)).transpose()?;
     let mut steering = Steering::of(arguments, &system, console)?;
@@ -50,7 +51,7 @@ pub fn run(arguments: &Simulate, console: &Console) -> Outcome {
     }
     let default = steering.len().unwrap_or(if until.is_some() { UNTIL_SCANS } else { DEFAULT_SCANS });
     let count = arguments.scans.unwrap_or(default);
-    guard::phase("simulating");
+    phase::begin("simulating");
     let made = scans(&system, arguments.meaning.tolerated(), &mut steering, count, until.as_ref())
         .map_err(|problem| refused(arguments, &problem))?;
     if let Some(recorded) = steering.recorded() {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::scans::ScanState;
 use crate::translate::{PlaceRole, System, TransitionRole};
-use petril_lang::flat::Hazard;
+use petril_lang::flat::{Hazard, Target};
 use petril_lang::interpret::Machine;
 use petril_lang::semantics::{Role, Type, VarId};
 use petril_logic::{Bound, Valuation};
@@ -40,23 +40,19 @@ pub struct Replay<'s> {
 /// Values on which net and interpreter agree. A value that neither has changed is not compared again.
 #[derive(Clone, Debug)]
 struct Compared {
-    values: Vec<u64>,
     result: (Type, u64),
     /// Variables with a bit whose token has moved since the last comparison.
     touched: Vec<VarId>,
+    /// Whether all are to be looked at.
+    is_all_touched: bool,
     /// Whether a token of the current result has moved since the last comparison.
     is_result_touched: bool,
 }
 
 impl Compared {
-    /// Nothing compared yet.
-    fn nothing(variables: usize) -> Self {
-        Self {
-            values: vec![0; variables],
-            result: (Type::BOOL, 0),
-            touched: (0..variables).map(VarId).collect(),
-            is_result_touched: true,
-        }
+    /// Nothing was compared yet.
+    fn nothing() -> Self {
+        Self { result: (Type::BOOL, 0), touched: Vec::new(), is_all_touched: true, is_result_touched: true }
     }
 }
 
@@ -72,7 +68,7 @@ impl<'s> Replay<'s> {
             given: Type::BOOL,
             passed: Vec::new(),
             hazards: Vec::new(),
-            compared: Compared::nothing(system.program.variables.len()),
+            compared: Compared::nothing(),
         }
     }
 
@@ -170,10 +166,12 @@ impl<'s> Replay<'s> {
             TransitionRole::Block => {
                 self.hazards.clear();
                 self.machine.begin_scan();
+                self.compared.is_all_touched = true;
             }
             TransitionRole::Copy { variable, bit, value } => {
                 let others = self.machine.value(variable) & !(1 << bit);
                 self.machine.set(variable, others | u64::from(value) << bit);
+                self.compared.touched.push(variable);
             }
             TransitionRole::Line(line) if line == self.machine.line() => match self.system.places[self.control.index()]
             {
@@ -195,8 +193,20 @@ impl<'s> Replay<'s> {
 
     /// Executes a line by the interpreter, after the net has finished it. Both must have met the same hazard.
     fn execute(&mut self, line: usize) -> Result<(), Disagreement> {
-        self.given = self.system.program.code[line].instruction.gives().unwrap_or(self.given);
+        let instruction = &self.system.program.code[line].instruction;
+        self.given = instruction.gives().unwrap_or(self.given);
+        match instruction.writes() {
+            Some(Target::Variable(variable)) => self.compared.touched.push(variable),
+            Some(Target::Element(element)) => {
+                let index = self.machine.value(element.index);
+                let written = usize::try_from(index).ok().filter(|&index| index < element.length);
+                self.compared.touched.extend(written.map(|index| element.at(index)));
+                self.compared.is_all_touched |= written.is_none();
+            }
+            None => {}
+        }
         let met: Vec<Hazard> = self.machine.step().into_iter().collect();
+        self.compared.is_all_touched |= self.machine.line() >= self.system.program.end();
         let passed = std::mem::take(&mut self.passed);
         self.hazards.extend(met.iter().map(|&hazard| (line, hazard)));
         if met == passed {
@@ -239,17 +249,16 @@ impl<'s> Replay<'s> {
     fn compare(&mut self) -> Result<(), String> {
         let (system, marking) = (self.system, &self.marking);
         let is_marked = |place| marking.is_marked(place);
-        let (now, Compared { values, touched, .. }) = (self.machine.memory(), &mut self.compared);
-        if values.as_slice() != now {
-            let pairs = (0..).map(VarId).zip(values.iter().zip(now));
-            touched.extend(pairs.filter(|(_, (before, now))| before != now).map(|(variable, _)| variable));
+        let (now, Compared { touched, is_all_touched, .. }) = (self.machine.memory(), &mut self.compared);
+        if std::mem::take(is_all_touched) {
+            touched.clear();
+            touched.extend((0..now.len()).map(VarId));
         }
         touched.sort_unstable();
         for &variable in &*touched {
             if system.value(variable, is_marked) != Some(now[variable.0]) {
                 return Err(format!("`{}`", system.program.variable(variable).name));
             }
-            values[variable.0] = now[variable.0];
         }
         touched.clear();
         let (given, result) = self.typed_result();

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::gates::{Network, Wire};
+use super::memory::{Jumped, Memory};
 use super::numbers::{self, complement, constant, resized};
 use super::products;
 use crate::flat::{Condition, Element, FlatProgram, Function, Hazard, Instruction, Operand, Target, Tolerated};
@@ -83,12 +84,14 @@ pub(super) fn compile(
         memory.extend(resized(bits, variable.ty.width as usize));
         starts.push(memory.len());
     }
-    let mut compiler = Compiler { program, tolerated, limits, network, starts, errors: Vec::new(), lines: Vec::new() };
-    let start = Flow { active: Wire::TRUE, result: Vec::new(), memory };
-    // If no path leads to the end, every scan has an error.
-    let end = compiler.run(start.clone())?.unwrap_or(start);
-    let Compiler { network, starts, errors, lines, .. } = compiler;
-    let memory = starts.windows(2).map(|range| end.memory[range[0]..range[1]].to_vec()).collect();
+    let (start, memory) = (memory.clone(), Memory::new(memory));
+    let mut compiler =
+        Compiler { program, tolerated, limits, network, memory, starts, errors: Vec::new(), lines: Vec::new() };
+    let is_ending = compiler.run()?;
+    let Compiler { network, memory, starts, errors, lines, .. } = compiler;
+    // Without a way to the end, every scan meets an error.
+    let end = if is_ending { memory.bits() } else { &start };
+    let memory = starts.windows(2).map(|range| end[range[0]..range[1]].to_vec()).collect();
     Ok(Compiled { network, memory, errors, lines })
 }
 
@@ -97,30 +100,29 @@ struct Compiler<'p> {
     tolerated: Tolerated,
     limits: Limits,
     network: Network,
+    memory: Memory,
     /// Offset of each variable's bits.
     starts: Vec<usize>,
     errors: Vec<(Wire, usize, Hazard)>,
     lines: Vec<(usize, Wire)>,
 }
 
-/// Symbolic state at a point of control.
-#[derive(Clone)]
+/// What is known where control is, beside the memory.
 struct Flow {
     /// Condition under which control reaches this point.
     active: Wire,
     result: Vec<Wire>,
-    memory: Vec<Wire>,
 }
 
 impl Compiler<'_> {
-    /// Executes all lines; returns the symbolic state at the end, if it is reachable.
-    fn run(&mut self, start: Flow) -> Result<Option<Flow>, NoGates> {
+    /// Whether control comes to the end.
+    fn run(&mut self) -> Result<bool, NoGates> {
         let end = self.program.end();
-        // Symbolic states that reach a line by jumps.
-        let mut arriving: BTreeMap<usize, Flow> = BTreeMap::new();
-        let mut flow = Some(start);
+        // What comes to a line by jumps, the first jump first.
+        let mut arriving: BTreeMap<usize, Vec<Jumped>> = BTreeMap::new();
+        let mut flow = Some(Flow { active: Wire::TRUE, result: Vec::new() });
         for line in 0..end {
-            flow = self.joined(flow, arriving.remove(&line));
+            flow = self.joined(flow, arriving.remove(&line).unwrap_or_default());
             self.note(line, flow.as_ref());
             let Some(now) = &mut flow else { continue };
             if let Instruction::Jump { condition, target } = self.program.code[line].instruction {
@@ -134,9 +136,8 @@ impl Compiler<'_> {
                 };
                 let active = self.network.and(now.active, jumps);
                 if active != Wire::FALSE {
-                    let jumping = Flow { active, ..now.clone() };
-                    let earlier = arriving.remove(&target);
-                    arriving.extend(self.joined(earlier, Some(jumping)).map(|flow| (target, flow)));
+                    let jumped = Jumped { active, result: now.result.clone(), since: self.memory.changes() };
+                    arriving.entry(target).or_default().push(jumped);
                 }
                 now.active = self.network.and(now.active, !jumps);
                 if now.active == Wire::FALSE {
@@ -149,9 +150,9 @@ impl Compiler<'_> {
                 return Err(NoGates::TooMany(line));
             }
         }
-        flow = self.joined(flow, arriving.remove(&end));
+        flow = self.joined(flow, arriving.remove(&end).unwrap_or_default());
         self.note(end, flow.as_ref());
-        Ok(flow)
+        Ok(flow.is_some())
     }
 
     /// Records the condition under which control reaches a line.
@@ -162,17 +163,24 @@ impl Compiler<'_> {
         }
     }
 
-    /// Joins two branches of control.
-    fn joined(&mut self, a: Option<Flow>, b: Option<Flow>) -> Option<Flow> {
-        let (mut a, b) = match (a, b) {
-            (Some(a), Some(b)) => (a, b),
-            (a, b) => return a.or(b),
+    /// Several parts of control as one.
+    fn joined(&mut self, flow: Option<Flow>, mut jumped: Vec<Jumped>) -> Option<Flow> {
+        let mut flow = match flow {
+            Some(flow) => flow,
+            // Where nobody goes on, the last one that has jumped does.
+            None => {
+                let last = jumped.pop()?;
+                self.memory.return_to(&last);
+                Flow { active: last.active, result: last.result }
+            }
         };
-        let width = a.result.len().max(b.result.len());
-        a.result = self.chosen(b.active, &resized(&b.result, width), &resized(&a.result, width));
-        a.memory = self.chosen(b.active, &b.memory, &a.memory);
-        a.active = self.network.or(a.active, b.active);
-        Some(a)
+        self.memory.join(&mut self.network, &jumped);
+        for Jumped { active, result, .. } in jumped {
+            let width = flow.result.len().max(result.len());
+            flow.result = self.chosen(active, &resized(&result, width), &resized(&flow.result, width));
+            flow.active = self.network.or(flow.active, active);
+        }
+        Some(flow)
     }
 
     fn chosen(&mut self, condition: Wire, yes: &[Wire], no: &[Wire]) -> Vec<Wire> {
@@ -183,19 +191,19 @@ impl Compiler<'_> {
     fn execute(&mut self, line: usize, flow: &mut Flow) -> Result<(), NoGates> {
         match self.program.code[line].instruction {
             Instruction::Load { ty, negated, operand } => {
-                flow.result = complement(&self.operand(line, flow, operand, ty)?, negated);
+                flow.result = complement(&self.operand(line, operand, ty)?, negated);
             }
             Instruction::Store { ty, negated, target } => {
                 let value = complement(&resized(&flow.result, ty.width as usize), negated);
-                self.write(line, flow, target, &mut |_, old| resized(&value, old.len()))?;
+                self.write(line, target, &mut |_, old| resized(&value, old.len()))?;
             }
             Instruction::Set(target) => {
                 let set = resized(&flow.result, 1)[0];
-                self.write(line, flow, target, &mut |network, old| vec![network.or(old[0], set)])?;
+                self.write(line, target, &mut |network, old| vec![network.or(old[0], set)])?;
             }
             Instruction::Reset(target) => {
                 let reset = resized(&flow.result, 1)[0];
-                self.write(line, flow, target, &mut |network, old| vec![network.and(old[0], !reset)])?;
+                self.write(line, target, &mut |network, old| vec![network.and(old[0], !reset)])?;
             }
             Instruction::Complement(ty) => {
                 flow.result = complement(&resized(&flow.result, ty.width as usize), true);
@@ -240,14 +248,14 @@ impl Compiler<'_> {
                 }
                 Operand::Place(_) if self.limits.products => {
                     let width = if negated { ty.width as usize } else { u64::BITS as usize };
-                    let distance = complement(&resized(&self.place(line, flow, operand)?, width), negated);
+                    let distance = complement(&resized(&self.place(line, operand)?, width), negated);
                     products::shift(&mut self.network, function, &a, &distance)
                 }
                 Operand::Place(_) => return Err(unfit),
             };
             return Ok(());
         }
-        let b = complement(&self.operand(line, flow, operand, ty)?, negated);
+        let b = complement(&self.operand(line, operand, ty)?, negated);
         let network = &mut self.network;
         let mut each = |gate: fn(&mut Network, Wire, Wire) -> Wire| -> Vec<Wire> {
             a.iter().zip(&b).map(|(&a, &b)| gate(network, a, b)).collect()
@@ -297,25 +305,25 @@ impl Compiler<'_> {
         self.starts[variable.0]..self.starts[variable.0 + 1]
     }
 
-    fn operand(&mut self, line: usize, flow: &Flow, operand: Operand, ty: Type) -> Result<Vec<Wire>, NoGates> {
+    fn operand(&mut self, line: usize, operand: Operand, ty: Type) -> Result<Vec<Wire>, NoGates> {
         let width = ty.width as usize;
         match operand {
             Operand::Constant(pattern) => Ok(constant(pattern, width)),
-            Operand::Place(_) => Ok(resized(&self.place(line, flow, operand)?, width)),
+            Operand::Place(_) => Ok(resized(&self.place(line, operand)?, width)),
         }
     }
 
-    /// All bits of an operand, of the operand's own width.
-    fn place(&mut self, line: usize, flow: &Flow, operand: Operand) -> Result<Vec<Wire>, NoGates> {
+    /// All bits of an operand.
+    fn place(&mut self, line: usize, operand: Operand) -> Result<Vec<Wire>, NoGates> {
         Ok(match operand {
             Operand::Constant(pattern) => constant(pattern, u64::BITS as usize),
-            Operand::Place(Target::Variable(variable)) => flow.memory[self.range(variable)].to_vec(),
+            Operand::Place(Target::Variable(variable)) => self.memory.bits()[self.range(variable)].to_vec(),
             Operand::Place(Target::Element(element)) => {
                 let width = self.range(element.first).len();
-                let hits = self.hits(line, flow, element)?;
+                let hits = self.hits(line, element)?;
                 let mut value = vec![Wire::FALSE; width];
                 for (variable, hit) in hits {
-                    let bits = resized(&flow.memory[self.range(variable)], width);
+                    let bits = resized(&self.memory.bits()[self.range(variable)], width);
                     value = self.chosen(hit, &bits, &value);
                 }
                 value
@@ -326,32 +334,31 @@ impl Compiler<'_> {
     fn write(
         &mut self,
         line: usize,
-        flow: &mut Flow,
         target: Target,
         new: &mut dyn FnMut(&mut Network, &[Wire]) -> Vec<Wire>,
     ) -> Result<(), NoGates> {
         let hits = match target {
             Target::Variable(variable) => vec![(variable, Wire::TRUE)],
-            Target::Element(element) => self.hits(line, flow, element)?,
+            Target::Element(element) => self.hits(line, element)?,
         };
         for (variable, hit) in hits {
             let range = self.range(variable);
-            let old = flow.memory[range.clone()].to_vec();
+            let old = self.memory.bits()[range.clone()].to_vec();
             let new = new(&mut self.network, &old);
             let bits = self.chosen(hit, &new, &old);
-            flow.memory[range].copy_from_slice(&bits);
+            self.memory.set(range.start, &bits);
         }
         Ok(())
     }
 
-    /// The elements of an array, each with the condition under which the index selects it. An index is always in range.
-    fn hits(&mut self, line: usize, flow: &Flow, element: Element) -> Result<Vec<(VarId, Wire)>, NoGates> {
+    /// The elements of an array, each with when it is meant. An index is always one of the array.
+    fn hits(&mut self, line: usize, element: Element) -> Result<Vec<(VarId, Wire)>, NoGates> {
         let width = self.program.variable(element.first).ty.width as usize;
         if element.length * width > ARRAY_BITS {
             return Err(NoGates::TooMany(line));
         }
         let bits = (usize::BITS - (element.length.saturating_sub(1)).leading_zeros()) as usize;
-        let index = resized(&flow.memory[self.range(element.index)], bits);
+        let index = resized(&self.memory.bits()[self.range(element.index)], bits);
         let hit = |at: usize| {
             let same = numbers::equal(&mut self.network, &index, &constant(at as u64, bits));
             (element.at(at), same)

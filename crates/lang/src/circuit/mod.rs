@@ -6,6 +6,7 @@
 mod compile;
 mod gates;
 mod layout;
+mod memory;
 mod numbers;
 mod products;
 mod scan_gates;
