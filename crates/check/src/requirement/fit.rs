@@ -1,5 +1,6 @@
 //! Formulas that were bound for another view, or for another system, than they are checked with.
 
+use petril_lang::semantics::Role;
 use petril_logic::{Atom, Bound, View};
 
 use crate::translate::{PlaceRole, System};
@@ -22,9 +23,10 @@ pub fn misfit(formula: &Bound, system: &System, view: View) -> Option<&'static s
             }
             (Atom::Place(place), _) if place.index() >= system.places.len() => Some(OTHER_SYSTEM),
             (Atom::Enabled(transition), _) if transition.index() >= system.transitions.len() => Some(OTHER_SYSTEM),
-            // Fairness speaks of the plant's places in the scan view, too.
+            // Fairness speaks of places that the end of a scan has, too.
             (Atom::Place(place), View::Scan) => match system.places[place.index()] {
                 PlaceRole::Plant(_) => None,
+                PlaceRole::Bit { variable, .. } if system.program.variable(variable).role != Role::Buffer => None,
                 _ => Some(OTHER_VIEW),
             },
             (Atom::Word(_) | Atom::Enabled(_) | Atom::Deadlock, View::Scan) => Some(OTHER_VIEW),
