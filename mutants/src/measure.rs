@@ -1,4 +1,4 @@
-//! Which tests there are, how long they take, and which switches they come to.
+//! Which tests there are, how long they take, and which switches they come to; those that are known are not measured again.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,11 +13,13 @@ pub fn measure(copy: &Path, programs: &[String]) {
     let mut known: Vec<Test> = fs::read(copy.join("tests.json"))
         .map_or_else(|_| Vec::new(), |bytes| serde_json::from_slice(&bytes).expect("a list of tests"));
     for (program, path) in build(copy, programs) {
-        known.retain(|test| test.program != program);
         let list = Command::new(&path).args(["--list", "--format", "terse"]).current_dir(copy).output();
         let list = String::from_utf8(list.expect("tests can be listed").stdout).expect("names are UTF-8");
         let names = list.lines().filter_map(|line| line.strip_suffix(": test"));
         for name in names.flat_map(|name| if program == "cli" { sessions(copy, name) } else { vec![name.to_owned()] }) {
+            if known.iter().any(|test| test.program == program && test.name == name) {
+                continue;
+            }
             let (program, path) = (program.clone(), path.clone());
             let mut test = Test { program, path, name, seconds: 0.0, reached: Vec::new() };
             let table = copy.join("reached");
