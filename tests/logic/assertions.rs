@@ -1,11 +1,12 @@
 //! Assertions at lines: by hand, and in both views of random programs.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test that panics has failed")]
 
+use petril::explore::{Budget, Progress};
 use petril::logic::{Assertion, Origin, View, bind_assertion, parse_requirements};
 use petril::source::Source;
 use petril::syntax::requirements_in_comments;
 use petril::translate::{Plant, System};
-use petril::verdict::{Answer, Options, Outcome, Trace, Verdict, check};
+use petril::verdict::{Answer, Options, Outcome, Trace, Verdict, Witness, check};
 use proptest::prelude::*;
 use support::{formula, program, random_program};
 
@@ -123,6 +124,61 @@ END_PROGRAM
     let answers = answers(&system, View::Scan, asserted(text, &system).unwrap());
     let Outcome::Unknown(reason) = &answers[0].outcome else { panic!("{answers:?}") };
     assert!(reason.contains("more than 16777216 combinations"), "{reason}");
+}
+
+/// A number that goes round from 0 to 7, one more in each scan.
+const ROUND: &str = "PROGRAM p
+VAR N : INT; END_VAR
+VAR_OUTPUT Out : BOOL; END_VAR
+    LD  N
+    ADD 1
+    MOD 8
+    ST  N
+    GT  3
+    ST  Out
+END_PROGRAM
+";
+
+/// That `N` is less than a bound in some lines.
+fn less(bound: u64, lines: &[usize], system: &System) -> Assertion {
+    let text = format!("N < {bound}");
+    let formula = formula(&text, system, View::Scan);
+    Assertion { name: text.clone(), sentence: None, text, origin: Origin::default(), formula, lines: lines.to_vec() }
+}
+
+/// At the beginning of scan n, `N` is n - 1.
+#[test]
+fn only_what_was_explored_is_asserted() {
+    let system = System::new(program(ROUND), Plant::default());
+    let told = |states: u64, watch: &mut dyn FnMut(&Progress) -> Option<String>| -> Vec<String> {
+        let assertions = [1, 5, 8].map(|bound| less(bound, &[0], &system)).to_vec();
+        let budget = Budget { states, ..Budget::default() };
+        let report = check(&system, &[], &Options { assertions, budget, ..Options::default() }, watch);
+        let told = report.answers.iter().map(|answer| match &answer.outcome {
+            Outcome::Violated(Witness { trace: Trace::Scans(trace), .. }, _) => format!("{} scans", trace.scans.len()),
+            Outcome::Unknown(reason) => reason.split(';').next().unwrap().to_owned(),
+            outcome => outcome.verdict().word().to_owned(),
+        });
+        told.collect()
+    };
+    assert_eq!(told(100, &mut |_| None), ["2 scans", "6 scans", "holds"]);
+    let limit = "the limit of 3 states was reached";
+    assert_eq!(told(3, &mut |_| None), ["2 scans", limit, limit]);
+    let ended = "the check was ended before all scans were looked at";
+    let mut explored = |progress: &Progress| (progress.expanded == 8).then(|| "enough".to_owned());
+    assert_eq!(told(100, &mut explored), [ended; 3]);
+}
+
+/// Behind the line that counts, `N` is 1 in the first scan already.
+#[test]
+fn of_many_lines_the_nearest_scan_is_shown() {
+    let system = System::new(program(ROUND), Plant::default());
+    for lines in [[0, 4], [4, 0]] {
+        let answers = answers(&system, View::Scan, vec![less(1, &lines, &system)]);
+        let Outcome::Violated(Witness { trace: Trace::Scans(trace), notes }, _) = &answers[0].outcome else { panic!() };
+        assert_eq!(trace.scans.len(), 1);
+        assert_eq!(notes[0].text, "before line 5 of the flat code (`GT 3`), `N < 1` was false");
+    }
 }
 
 proptest! {

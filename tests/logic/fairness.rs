@@ -107,6 +107,26 @@ fn a_lasso_meets_every_assumption_in_its_loop() {
     assert_eq!(trace.scans.len(), 3, "two scans, of which the first comes again");
 }
 
+/// Pressing `on` and `off` by turns keeps the promise and never presses both.
+#[test]
+fn promises_are_kept_in_the_loop() {
+    let promise = "if again and again on then again and again off";
+    for formula in ["AF (on & off)", "LTL F (on & off)"] {
+        let Outcome::Violated(witness, _) = outcome(LATCH, &[], &[promise, "pressed(on)"], formula) else {
+            panic!("{formula}");
+        };
+        let Trace::Scans(trace) = witness.trace else { panic!("{formula}") };
+        let behind = &trace.scans[trace.loop_start.unwrap() + 1..];
+        let mut inputs: Vec<[u64; 2]> = behind.iter().map(|scan| [scan.inputs[0].1, scan.inputs[1].1]).collect();
+        inputs.sort_unstable();
+        assert_eq!(inputs, [[0, 1], [1, 0]], "{formula}");
+        // Without `on` nothing is promised: the shortest loop is a scan that comes again.
+        let Outcome::Violated(witness, _) = outcome(LATCH, &[], &[promise], formula) else { panic!("{formula}") };
+        let Trace::Scans(trace) = witness.trace else { panic!("{formula}") };
+        assert_eq!((trace.scans.len(), trace.loop_start), (2, Some(0)), "{formula}");
+    }
+}
+
 #[test]
 fn nothing_holds_only_because_no_run_counts() {
     let reason = |fairness: &[&str], formula: &str| match outcome(LATCH, &[], fairness, formula) {

@@ -4,7 +4,7 @@
 use petril::diagnostic::Code;
 use petril::flat::{FlatProgram, Hazard, Tolerated};
 use petril::sif::Specification;
-use petril::sif::proof::{By, Confirmed, Failure, Form, Options, Outcome, Proof, Subject, prove};
+use petril::sif::proof::{By, Confirmed, Failure, Form, Options, Outcome, Proof, Scan, Subject, prove};
 use petril::source::Source;
 use petril::verdict::Verdict;
 use support::proofs::{function, program, proved, refuted};
@@ -136,6 +136,26 @@ fn latched_outputs_are_used_by_others() {
     let late = proof(text, &late);
     assert!(matches!(late.answers[0].outcome, Outcome::Proved { .. }));
     assert!(matches!(&late.answers[1].outcome, Outcome::Refuted(scans) if scans.len() == 1));
+}
+
+/// An output that others use is what is specified of it, also where the program makes something else of it.
+#[test]
+fn wrong_outputs_are_used_as_they_are_specified() {
+    let text = "function F { interface { input a; output y; } formal { y = a; } }
+                function G { interface { input b; input y; output z; } formal { z = y & b; } }";
+    let told = |body: &str| -> Vec<String> {
+        let proof = proof(text, &program("a, b, c", "y, z", "", body));
+        let values = |scan: &Scan| scan.given.inputs.iter().map(|(_, value)| value.to_string()).collect::<String>();
+        let told = proof.answers.iter().map(|answer| match &answer.outcome {
+            Outcome::Refuted(scans) => scans.iter().map(values).collect::<Vec<_>>().join(" "),
+            Outcome::Proved { confirmed, .. } => format!("{confirmed:?}"),
+            Outcome::Unknown(reason) => reason.clone(),
+        });
+        told.collect()
+    };
+    // z is y & b of what y is, and of what y should be.
+    assert_eq!(told("LD a\nAND c\nST y\nAND b\nST z"), ["100", "110"]);
+    assert_eq!(told("LD a\nAND c\nST y\nLD a\nAND b\nST z"), ["100", "Some(EveryScan { states: 1, scans: 8 })"],);
 }
 
 /// What is proved of one output where a restriction is kept says nothing about runs that do not keep it.

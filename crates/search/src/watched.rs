@@ -21,8 +21,10 @@ pub fn watched<T: Send>(
 ) -> (Option<T>, Option<String>) {
     let stopping = AtomicBool::new(false);
     let (sender, receiver) = channel();
+    let flag = &stopping;
     thread::scope(|scope| {
-        scope.spawn(|| sender.send(work(&stopping)));
+        // The sender goes with the work: if that panics, nobody waits for a result any more.
+        scope.spawn(move || sender.send(work(flag)));
         let mut reason = None;
         loop {
             match receiver.recv_timeout(PAUSE) {
@@ -35,4 +37,22 @@ pub fn watched<T: Send>(
             }
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A panic is passed on, and not waited for.
+    #[test]
+    #[should_panic(expected = "a scoped thread panicked")]
+    fn work_that_panics_is_over() {
+        let mut looks = 0;
+        let mut watch = |_: &Progress| {
+            looks += 1;
+            assert!(looks < 500, "the work is still watched after ten seconds");
+            None
+        };
+        let _: (Option<()>, _) = watched(&mut watch, &Progress::default(), |_| panic!("a mistake"));
+    }
 }
