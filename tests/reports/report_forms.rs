@@ -357,9 +357,9 @@ fn texts_about_nets_say_in_a_file_where_they_come_from() {
         [("info", ""), ("explore", ""), ("check", "-r 'EF marked(\"b\")'"), ("reduce", "--keep b -o m.net")]
     {
         let command = format!("net {verb} n.net {options}");
-        let mut shell = std::process::Command::new("sh");
+        let mut shell = Command::new("sh");
         shell.args(["-c", &format!("\"$0\" {command} > f.txt"), env!("CARGO_BIN_EXE_petril")]);
-        let run = support::process::run({
+        let run = run({
             shell.current_dir(folder.path());
             shell
         });
@@ -370,9 +370,9 @@ fn texts_about_nets_say_in_a_file_where_they_come_from() {
             assert!(text.contains(part), "{verb} lacks {part}\n{text}");
         }
         let words = text.lines().find_map(|line| line.strip_prefix("command: petril ")).unwrap();
-        let mut again = std::process::Command::new("sh");
+        let mut again = Command::new("sh");
         again.args(["-c", &format!("\"$0\" {words}"), env!("CARGO_BIN_EXE_petril")]).current_dir(folder.path());
-        let piped = support::process::run(again).stdout;
+        let piped = run(again).stdout;
         assert!(!piped.contains("made by"), "{verb}\n{piped}");
         assert_eq!(text.strip_prefix(&piped).map(|rest| rest.starts_with("\nmade by: ")), Some(true), "{verb}\n{text}");
     }
