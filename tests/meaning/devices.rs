@@ -160,6 +160,31 @@ fn each_check_finds_what_it_is_for() {
     }
 }
 
+/// A declaration leaves out values of a type; a plant keeps to it.
+#[test]
+fn values_are_those_of_subranges_and_enumerations() {
+    let program = support::program(
+        "TYPE Colour : (Red, Green); END_TYPE
+         PROGRAM p VAR_INPUT k : INT (-5..20); c : Colour; END_VAR VAR_OUTPUT q : BOOL; END_VAR
+         LD k\nGT 3\nST q\nLD c\nEQ Green\nST q\nEND_PROGRAM",
+    );
+    let told = |net: &str| {
+        let located = tina::read(&Source::new("n", net)).unwrap();
+        let added = Plant::default().add(&located, &program);
+        added.map(drop).map_err(|errors| errors.iter().map(|error| error.code).collect::<Vec<_>>())
+    };
+    for (place, expected) in [
+        ("{k=20}", Ok(())),
+        ("{k=-5}", Ok(())),
+        ("{k=21}", Err(vec![Code::PlantVariableUnfit])),
+        ("{k=-6}", Err(vec![Code::PlantVariableUnfit])),
+        ("{c=1}", Ok(())),
+        ("{c=2}", Err(vec![Code::PlantVariableUnfit])),
+    ] {
+        assert_eq!(told(&format!("pl {place} (1)\n")), expected, "{place}");
+    }
+}
+
 #[test]
 fn what_the_program_begins_with_may_be_marked() {
     assert_eq!(plant("pl {q=1} (1)\npl {a=0} (1)\npl {r=0}\n").components.len(), 1);

@@ -359,11 +359,11 @@ fn texts_about_nets_say_in_a_file_where_they_come_from() {
         let command = format!("net {verb} n.net {options}");
         let mut shell = Command::new("sh");
         shell.args(["-c", &format!("\"$0\" {command} > f.txt"), env!("CARGO_BIN_EXE_petril")]);
-        let run = run({
+        let ran = run({
             shell.current_dir(folder.path());
             shell
         });
-        assert_eq!(run.code, 0, "{verb}: {}", run.stderr);
+        assert_eq!(ran.code, 0, "{verb}: {}", ran.stderr);
         let text = fs::read_to_string(folder.path().join("f.txt")).unwrap();
         let command = format!("\ncommand: petril {}\n", command.trim());
         for part in ["\nmade by: petril 0.", &command, "\ninput: n.net, sha256 ", "\noptions: sha256 "] {

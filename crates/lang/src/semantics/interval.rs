@@ -21,6 +21,9 @@ pub fn of(unit: &Unit, program: &Name, found: &mut Vec<Diagnostic>) -> Option<u6
         return None;
     };
     let first = interval(task, found);
+    if first.is_none() && task.interval.is_some() {
+        return None;
+    }
     // One scan time stands for the program: timers would count another one differently.
     for (other, task) in tasks.filter_map(|(name, task)| Some((name, task?))) {
         let its = interval(task, &mut Vec::new());
