@@ -140,7 +140,7 @@ pub fn all(checks: Vec<(Check, Entry)>, cache: Option<Cache>, console: &Console)
     }
     sign_of_life::end();
     work.bar.finish_and_clear();
-    let judged = |((arguments, entry), (done, told)): (&(Check, Entry), (Result<Done, Failure>, Option<Told>))| {
+    let judged = |((arguments, entry), (done, told)): (&(Check, Entry), Ended)| {
         let mut diagnostics = Vec::new();
         if let Some(mut told) = told {
             diagnostics = told.take_diagnostics();
@@ -155,6 +155,9 @@ pub fn all(checks: Vec<(Check, Entry)>, cache: Option<Cache>, console: &Console)
     };
     work.checks.iter().zip(results.into_values()).map(judged).collect()
 }
+
+/// Outcome of a program, and what was to be printed about it.
+type Ended = (Result<Done, Failure>, Option<Told>);
 
 /// Number of programs that are done.
 #[derive(Default)]

@@ -126,7 +126,7 @@ impl<'s> Stream<'s> {
     /// Next child of the current element, past any text; `None` at the end of the element.
     pub fn child(&mut self) -> Result<Option<Element<'s>>, Diagnostic> {
         loop {
-            match self.next()? {
+            match self.event()? {
                 Some(Event::Start(element)) => return Ok(Some(element)),
                 Some(Event::Text(_)) => {}
                 Some(Event::End) | None => return Ok(None),
@@ -135,7 +135,7 @@ impl<'s> Stream<'s> {
     }
 
     /// The next event; `None` at the end of the document.
-    pub fn next(&mut self) -> Result<Option<Event<'s>>, Diagnostic> {
+    pub fn event(&mut self) -> Result<Option<Event<'s>>, Diagnostic> {
         loop {
             let from = self.position();
             let token = self.reader.read_event().map_err(|error| self.refused(&error))?;
@@ -190,7 +190,7 @@ impl<'s> Stream<'s> {
     pub fn skip(&mut self) -> Result<(), Diagnostic> {
         let outside = self.depth - 1;
         while self.depth > outside {
-            self.next()?;
+            self.event()?;
         }
         Ok(())
     }
@@ -200,7 +200,7 @@ impl<'s> Stream<'s> {
     pub fn content(&mut self, element: &Element<'s>) -> Result<Piece<'s>, Diagnostic> {
         let mut content: Option<Piece<'s>> = None;
         loop {
-            match self.next()? {
+            match self.event()? {
                 Some(Event::Start(_)) => self.skip()?,
                 Some(Event::Text(piece)) => {
                     content = match content {

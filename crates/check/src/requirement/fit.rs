@@ -16,23 +16,31 @@ const OTHER_SYSTEM: &str = "it was bound for another system: bind it for the one
 pub fn misfit(formula: &Bound, system: &System, view: View) -> Option<&'static str> {
     let mut reason = None;
     formula.for_each_atom(&mut |atom| {
-        reason = reason.or(match (atom, view) {
-            (Atom::Number(_), _) => None,
-            (Atom::Variable(variable) | Atom::Word(variable), _) if variable.0 >= system.program.variables.len() => {
-                Some(OTHER_SYSTEM)
-            }
-            (Atom::Place(place), _) if place.index() >= system.places.len() => Some(OTHER_SYSTEM),
-            (Atom::Enabled(transition), _) if transition.index() >= system.transitions.len() => Some(OTHER_SYSTEM),
-            // Fairness speaks of places that the end of a scan has, too.
-            (Atom::Place(place), View::Scan) => match system.places[place.index()] {
-                PlaceRole::Plant(_) => None,
-                PlaceRole::Bit { variable, .. } if system.program.variable(variable).role != Role::Buffer => None,
-                _ => Some(OTHER_VIEW),
-            },
-            (Atom::Word(_) | Atom::Enabled(_) | Atom::Deadlock, View::Scan) => Some(OTHER_VIEW),
-            (Atom::Variable(_) | Atom::Past, View::Transition) => Some(OTHER_VIEW),
-            _ => None,
-        });
+        reason = reason.or_else(|| of_atom(atom, system, view));
     });
     reason
+}
+
+fn of_atom(atom: Atom, system: &System, view: View) -> Option<&'static str> {
+    let is_known = match atom {
+        Atom::Variable(variable) | Atom::Word(variable) => variable.0 < system.program.variables.len(),
+        Atom::Place(place) => place.index() < system.places.len(),
+        Atom::Enabled(transition) => transition.index() < system.transitions.len(),
+        Atom::Number(_) | Atom::Deadlock | Atom::Past => true,
+    };
+    if !is_known {
+        return Some(OTHER_SYSTEM);
+    }
+    let is_there = match (view, atom) {
+        (View::Scan, Atom::Number(_) | Atom::Variable(_) | Atom::Past) => true,
+        // Fairness speaks of places that the end of a scan has, too.
+        (View::Scan, Atom::Place(place)) => match system.places[place.index()] {
+            PlaceRole::Plant(_) => true,
+            PlaceRole::Bit { variable, .. } => system.program.variable(variable).role != Role::Buffer,
+            _ => false,
+        },
+        (View::Scan, Atom::Word(_) | Atom::Enabled(_) | Atom::Deadlock) => false,
+        (View::Transition, atom) => !matches!(atom, Atom::Variable(_) | Atom::Past),
+    };
+    (!is_there).then_some(OTHER_VIEW)
 }

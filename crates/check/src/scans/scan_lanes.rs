@@ -42,7 +42,7 @@ impl<'s> Lanes<'s> {
         let begin = self.states.get(..self.words).map(<[u64]>::to_vec);
         let mut failures: Vec<(usize, Failure)> = Vec::new();
         self.circuit.run(&mut self.states, &mut self.scratch, |lane, line, hazard| {
-            failures.push((lane, Failure::Hazard(line, hazard)))
+            failures.push((lane, Failure::Hazard(line, hazard)));
         });
         if let Some(begin) = begin {
             let end = match failures.first() {

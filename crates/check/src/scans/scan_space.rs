@@ -94,7 +94,7 @@ impl<'s> ScanSpace<'s> {
     /// Makes the space of a system in which only admitted scans can begin.
     #[must_use]
     pub fn assuming(system: &'s System, tolerated: Tolerated, admission: Option<&'s dyn Admission>) -> Self {
-        let mut layout = Layout::new();
+        let mut layout = Layout::default();
         let width = |markings: usize| usize::BITS - (markings - 1).leading_zeros();
         let markings = system.plant.components.iter().map(|component| component.markings.len());
         let components: Vec<Field> = markings.map(|markings| layout.field(width(markings))).collect();

@@ -32,13 +32,14 @@ pub struct Layout {
     used: Vec<u32>,
 }
 
-impl Layout {
-    /// No fields yet.
-    #[must_use]
-    pub fn new() -> Self {
+impl Default for Layout {
+    /// Layout without fields, of one word.
+    fn default() -> Self {
         Self { used: vec![0] }
     }
+}
 
+impl Layout {
     /// Number of words, at least one.
     pub fn words(&self) -> usize {
         self.used.len()
@@ -63,7 +64,7 @@ mod tests {
 
     #[test]
     fn fields_do_not_touch_each_other() {
-        let mut layout = Layout::new();
+        let mut layout = Layout::default();
         let bits = [0, 1, 16, 64, 0, 3, 61, 0, 8];
         let fields = bits.map(|bits| layout.field(bits));
         // 0 + 1 + 16; 64 + 0; 3 + 61 + 0; 8

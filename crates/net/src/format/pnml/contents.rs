@@ -63,7 +63,7 @@ impl<'s> Contents<'s> {
         contents.other(net, diagnostics);
         // Stack of open pages; the first entry is the net itself.
         let mut open = vec![0];
-        while let (Some(&page), Some(event)) = (open.last(), stream.next()?) {
+        while let (Some(&page), Some(event)) = (open.last(), stream.event()?) {
             let page = (open.len() as u32, page);
             let element = match event {
                 Event::Start(element) => element,

@@ -19,7 +19,7 @@ pub fn required<'s>(element: &Element<'s>, name: &str, diagnostics: &mut Vec<Dia
 pub fn text<'s>(stream: &mut Stream<'s>) -> Result<Option<Piece<'s>>, Diagnostic> {
     let mut text = None;
     loop {
-        match stream.next()? {
+        match stream.event()? {
             Some(Event::Start(element)) if element.name == "text" && text.is_none() => {
                 text = Some(stream.content(&element)?);
             }

@@ -53,7 +53,7 @@ fn the_net<'s>(
     let mut root = Span::default();
     let mut nets: Vec<Span> = Vec::new();
     let mut found = None;
-    while let Some(event) = stream.next()? {
+    while let Some(event) = stream.event()? {
         match event {
             Event::Start(element) if root == Span::default() => {
                 root = element.span;

@@ -44,7 +44,7 @@ impl<'s> Section<'s> {
         let mut section = Self { span, sizes: Vec::new(), count: None, root: None, safe: false, units: Vec::new() };
         // Levels: section, structure, unit.
         let mut depth = 1;
-        while let Some(event) = stream.next()? {
+        while let Some(event) = stream.event()? {
             let element = match event {
                 Event::Start(element) => element,
                 Event::End if depth == 1 => break,
