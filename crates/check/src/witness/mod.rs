@@ -1,7 +1,7 @@
 //! Traces: reconstructed from search results, replayed by code independent of the search, and presented in the terms of
 //! the program.
 //!
-//! The replay plays the token game of [`crate::net`] firing by firing and runs the interpreter in step with it; net and
+//! The replay plays the token game of [`petril_net::net`] firing by firing and runs the interpreter in step with it; net and
 //! interpreter must agree on every bit after every instruction, and with the claims of the search.
 
 mod columns;

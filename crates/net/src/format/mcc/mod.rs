@@ -20,7 +20,7 @@
 //! ```
 //!
 //! Places and transitions are identified by their ids in the net's PNML file, which are seldom their names: such
-//! formulas are bound with [`Nodes::by_id`](crate::logic::Nodes::by_id).
+//! formulas are bound with [`Nodes::by_id`](petril_logic::Nodes::by_id).
 
 mod formula;
 mod read;
