@@ -8,6 +8,7 @@ mod rows;
 pub mod source;
 mod to_text;
 mod types;
+#[cfg(feature = "xml")]
 pub mod xml;
 
 pub use ids::{PlaceId, TransitionId, VarId};

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod engine;
+#[cfg(feature = "formats")]
 pub mod format;
 mod goal;
 mod markings;

@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::fs;
 
-use petril::exchange::sif::list;
+use petril::exchange::sif::{list, workbook};
 use petril::printable::line;
 
 use super::args::SifImport;
@@ -21,7 +21,7 @@ pub fn run(arguments: &SifImport, console: &Console) -> Outcome {
             return Err(Failure::Message(format!("`{name}` has more than {} MiB", MAX_TEXT >> 20)));
         }
         output::has_read(path);
-        list::rows_of_workbook(&fs::read(path).map_err(cannot)?)
+        workbook::rows(&fs::read(path).map_err(cannot)?)
     } else {
         list::rows_of_text(source(path, MAX_TEXT, console)?.text())
     };

@@ -8,6 +8,8 @@ pub mod junit;
 pub mod list;
 pub mod plan_csv;
 pub mod results_csv;
+#[cfg(feature = "spreadsheets")]
+pub mod workbook;
 
 use super::Provenance;
 use petril_base::source::Source;

@@ -5,11 +5,13 @@
 
 mod code;
 mod expected;
+#[cfg(feature = "render")]
 mod render;
 mod suggest;
 
 pub use code::{Code, Severity};
 pub use expected::{expected, plain_letters};
+#[cfg(feature = "render")]
 pub use render::{Style, render};
 pub use suggest::nearest;
 
