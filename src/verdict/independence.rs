@@ -127,6 +127,7 @@ mod tests {
             implies(&a, &or(&b, &a)),
             iff(&a, &a),
             iff(&and(&a, &b), &and(&b, &a)),
+            or(&and(&a, &b), &or(&not(&a), &not(&b))),
             // Temporal parts are true of everything, or they are parts like others.
             always.clone(),
             and(&either, &always),
