@@ -213,6 +213,9 @@ mod tests {
     fn any_lasso_serves_where_none_comes_back_to_its_way() {
         assert_eq!(near(&[&[1, 2], &[2], &[3], &[1]], &[]), Some((vec![1, 2, 3], Some(1))));
         assert_eq!(near(&[&[4, 2, 1], &[2], &[3], &[1], &[4]], &[0, 1, 2, 3]), Some((vec![1, 2, 3], Some(1))));
+        // State 1, the least, is not inside.
+        let rows: [&[u32]; 5] = [&[1, 2, 3], &[1], &[3], &[4], &[2]];
+        assert_eq!(near(&rows, &[0, 2, 3, 4]), Some((vec![2, 3, 4], Some(1))));
         // A loop and an end beyond the nearest states.
         let far = (NEAR + 5) as u32;
         for (last, loop_start) in [(vec![far - 1], Some(NEAR + 4)), (vec![], None)] {
