@@ -52,9 +52,9 @@ struct Chosen {
     /// Only these faults, whatever is known of them.
     #[arg(long, value_delimiter = ',')]
     faults: Vec<u32>,
-    /// Only tests whose name has this in it.
-    #[arg(long, default_value = "")]
-    test: String,
+    /// Only tests whose name has one of these in it, as `program::test`.
+    #[arg(long, value_delimiter = ',')]
+    tests: Vec<String>,
     /// Which part of the faults: `0/2` is the first of two.
     #[arg(long, default_value = "0/1")]
     shard: String,

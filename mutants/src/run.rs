@@ -41,9 +41,11 @@ pub fn outcomes(copy: &Path) -> BTreeMap<u32, Outcome> {
     for path in paths {
         for line in fs::read_to_string(path).expect("results").lines() {
             let outcome: Outcome = serde_json::from_str(line).expect("an outcome in each line");
-            // What was noticed once stays noticed: a shorter look later says nothing.
-            let is_survivor = outcome.outcome == "survived";
-            if !is_survivor || known.get(&outcome.fault).is_none_or(|old: &Outcome| old.outcome == "survived") {
+            // What was noticed once stays noticed, and of two looks the longer one counts.
+            let is_more = |old: &Outcome| {
+                old.outcome == "survived" && (outcome.outcome != "survived" || outcome.tried >= old.tried)
+            };
+            if known.get(&outcome.fault).is_none_or(is_more) {
                 known.insert(outcome.fault, outcome);
             }
         }
@@ -53,10 +55,11 @@ pub fn outcomes(copy: &Path) -> BTreeMap<u32, Outcome> {
 
 pub fn run(copy: &Path, chosen: &Chosen) {
     let (faults, unviable) = table(copy);
-    let tests: Vec<Test> =
+    let mut tests: Vec<Test> =
         serde_json::from_slice(&fs::read(copy.join("tests.json")).expect("measure first")).expect("tests");
-    let tests: Vec<Test> =
-        tests.into_iter().filter(|test| format!("{}::{}", test.program, test.name).contains(&chosen.test)).collect();
+    let is_chosen =
+        |test: &Test| chosen.tests.is_empty() || chosen.tests.iter().any(|part| test.full_name().contains(part));
+    tests.retain(is_chosen);
     let known = outcomes(copy);
     let (part, parts) = chosen.shard.split_once('/').expect("a part and a number of parts");
     let (part, parts): (usize, usize) = (part.parse().expect("a number"), parts.parse().expect("a number"));
@@ -84,11 +87,15 @@ pub fn run(copy: &Path, chosen: &Chosen) {
         }
     }
     // Tests that noticed faults of a file are asked first about the next one.
-    let mut merits: HashMap<(&str, usize), f64> = HashMap::new();
+    let mut merits: HashMap<(&str, String), f64> = HashMap::new();
+    let files: HashMap<u32, &str> = faults.iter().map(|fault| (fault.number, fault.file.as_str())).collect();
+    for outcome in known.values().filter(|outcome| outcome.outcome == "caught") {
+        *merits.entry((files[&outcome.fault], outcome.by.clone())).or_default() += 1.0;
+    }
     for (i, fault) in open.iter().enumerate() {
         let mut coming = reaching.get(&fault.number).cloned().unwrap_or_default();
         let cost = |test: &usize| {
-            let merit = merits.get(&(fault.file.as_str(), *test)).copied().unwrap_or(0.0);
+            let merit = merits.get(&(fault.file.as_str(), tests[*test].full_name())).copied().unwrap_or(0.0);
             (tests[*test].seconds + 0.02) / (1.0 + merit)
         };
         coming.sort_by(|one, other| cost(one).total_cmp(&cost(other)));
@@ -110,8 +117,8 @@ pub fn run(copy: &Path, chosen: &Chosen) {
             (outcome.tried, outcome.seconds) = (outcome.tried + 1, outcome.seconds + seconds);
             if ended != Ended::Passed {
                 outcome.outcome = if ended == Ended::Failed { "caught" } else { "timed out" }.to_owned();
-                outcome.by = format!("{}::{}", test.program, test.name);
-                *merits.entry((&fault.file, at)).or_default() += 3.0;
+                outcome.by = test.full_name();
+                *merits.entry((&fault.file, test.full_name())).or_default() += 1.0;
                 break;
             }
         }

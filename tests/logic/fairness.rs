@@ -10,7 +10,7 @@ use petril::logic::{
 use petril::semantics::VarId;
 use petril::source::Source;
 use petril::translate::System;
-use petril::verdict::{Options, Outcome, Report, Trace, Verdict, check};
+use petril::verdict::{Independence, Options, Outcome, Report, Trace, Verdict, check};
 use proptest::prelude::*;
 use support::systems::system;
 use support::{random_formula, random_program};
@@ -125,6 +125,52 @@ fn promises_are_kept_in_the_loop() {
         let Trace::Scans(trace) = witness.trace else { panic!("{formula}") };
         assert_eq!((trace.scans.len(), trace.loop_start), (2, Some(0)), "{formula}");
     }
+}
+
+/// A plant that turns on one of two inputs for ever, once the first scan is over.
+#[test]
+fn assumptions_that_exclude_each_other_are_named_if_they_are_one() {
+    let program =
+        "PROGRAM p VAR_INPUT on, off : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD TRUE\nST q\nEND_PROGRAM";
+    let either = "net either
+pl {on=0} (1)
+pl {on=1}
+pl {off=0} (1)
+pl {off=1}
+pl free (1)
+tr a {on=0} free {q=1}?1 -> {on=1}
+tr b {off=0} free {q=1}?1 -> {off=1}
+";
+    let reason = |fairness: &[&str]| match outcome(program, &[either], fairness, "AG q") {
+        Outcome::Unknown(reason) => reason,
+        other => panic!("{fairness:?}: {other:?}"),
+    };
+    for possible in [["pressed(on)", "released(off)"], ["pressed(off)", "released(on)"]] {
+        assert_eq!(verdict(program, &[either], &possible, "AG q"), Verdict::Holds);
+    }
+    let named = reason(&["pressed(on, off)"]);
+    assert!(named.starts_with("no run meets the fairness assumption that ") && named.contains("on, off"), "{named}");
+    assert_eq!(reason(&["pressed(on)", "pressed(off)"]), "no run meets the fairness assumptions");
+    assert_eq!(reason(&["released(on, off)", "pressed(on)", "pressed(off)"]), "no run meets the fairness assumptions");
+}
+
+/// What holds of inputs alone tests the plant, unless it holds because of what was assumed.
+#[test]
+fn what_an_assumption_makes_true_is_not_independent_of_it() {
+    let system = system(LATCH, &[]);
+    let independent = |fairness: &[&str], formula: &str| {
+        let fairness = assumed(&system, View::Scan, fairness);
+        let answer = judged(&system, View::Scan, &fairness, formula).answers.swap_remove(0);
+        assert_eq!(answer.outcome.verdict(), Verdict::Holds, "{formula}");
+        answer.independent
+    };
+    let again = ["again and again off"];
+    assert_eq!(independent(&[], "AG EX on"), Some(Independence::OfTheProgram));
+    assert_eq!(independent(&again, "AG EX on"), None);
+    assert_eq!(independent(&again, "AF off"), None);
+    assert_eq!(independent(&[], "AG (q | !q)"), Some(Independence::OfEverything));
+    assert_eq!(independent(&again, "AG (q | !q)"), Some(Independence::OfEverything));
+    assert_eq!(independent(&again, "AG (q -> !off)"), None);
 }
 
 #[test]

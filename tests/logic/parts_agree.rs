@@ -221,3 +221,23 @@ fn a_state_that_was_not_expanded_is_no_end() {
         assert_eq!(verdict(Some("the time is up")), Verdict::Unknown, "{formula}");
     }
 }
+
+/// After the first scan without `In` nothing is counted any more, and soon all of that is known; after one with it, 7 scans are needed.
+#[test]
+fn what_one_beginning_excludes_another_may_reach() {
+    let text =
+        "PROGRAM p VAR_INPUT In : BOOL; END_VAR VAR Started, On : BOOL; N : INT; END_VAR VAR_OUTPUT q : BOOL; END_VAR
+        LD Started\nJMPC run\nLD In\nST On\nLD TRUE\nST Started
+        run: LD On\nST q\nJMPCN done\nLD N\nADD 1\nMOD 8\nST N
+        done: LD TRUE\nEND_PROGRAM";
+    let system = System::new(support::program(text), petril::translate::Plant::default());
+    let asked = [requirement("reachability(N = 7)", &system, View::Scan)];
+    let verdict = |states: u64| {
+        let options = Options { budget: Budget { states, ..Budget::default() }, ..Options::default() };
+        check(&system, &asked, &options, &mut |_| None).answers[0].outcome.verdict()
+    };
+    assert_eq!(verdict(100), Verdict::Holds);
+    for states in 1..8 {
+        assert_eq!(verdict(states), Verdict::Unknown, "{states} states");
+    }
+}

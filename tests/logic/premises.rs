@@ -112,6 +112,48 @@ fn coverage_counts_lines_and_what_is_asked() {
     assert_eq!(report.coverage, Some(expected));
 }
 
+#[test]
+fn what_is_assumed_of_plants_and_timers_is_told() {
+    let text = "PROGRAM p VAR_INPUT a, b : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\nLD a\nAND b\nST q\nEND_PROGRAM";
+    // A device that gives a value, one that gives none, and one that neither gives a value nor moves.
+    let plant = "net n
+pl {a=0} (1)
+pl {a=1}
+tr press {a=0} -> {a=1}
+pl dark (1)
+pl light
+pl gone
+tr shine dark {q=1}?1 -> light
+tr back gone -> dark
+pl still (1)
+";
+    let cold = "the PLC starts cold: every variable has its initial value";
+    let moves = "moves any number of times between two scans, or not at all";
+    let told = report(&system(text, &[plant]), "requirement x: AG (q -> a);").assumptions;
+    let expected = [
+        cold.to_owned(),
+        format!("`n.1` gives a its value and {moves}"),
+        format!("`n.2` {moves}"),
+        "`n.back` never fires: nothing enables it".to_owned(),
+        "b may have any value in any scan".to_owned(),
+    ];
+    assert_eq!(told, expected);
+
+    let timed = |preset: &str| {
+        let text = format!(
+            "PROGRAM p VAR_INPUT a : BOOL; END_VAR VAR t : TON; d, e : TIME := T#100ms; END_VAR VAR_OUTPUT q : BOOL; END_VAR
+             {preset}\nST d\nCAL t(IN := a, PT := d)\nLD t.Q\nST q\nEND_PROGRAM"
+        );
+        report(&system(&text, &[]), "requirement x: AG (q -> a);").assumptions
+    };
+    let any = "a may have any value in any scan";
+    let clock = "a scan begins every 20 ms; during a scan the clock stands still";
+    let preset = "a timer's preset time does not grow while the timer runs and is not called";
+    assert_eq!(timed("LD T#200ms"), [cold, any, clock]);
+    assert_eq!(timed("LD T#300ms\nSUB e")[..2], [cold, any]);
+    assert!(timed("LD T#300ms\nSUB e").ends_with(&[clock.to_owned(), preset.to_owned()]));
+}
+
 /// The formula with something else for the conclusion of this implication.
 fn with_conclusion(formula: &Bound, premise: &Bound, conclusion: &Bound) -> Bound {
     let of = |f: &Bound| Box::new(with_conclusion(f, premise, conclusion));

@@ -158,6 +158,68 @@ fn wrong_outputs_are_used_as_they_are_specified() {
     assert_eq!(told("LD a\nAND c\nST y\nLD a\nAND b\nST z"), ["100", "Some(EveryScan { states: 1, scans: 8 })"],);
 }
 
+/// Of the other functions' outputs, a function that is proved alone needs those that are delayed and that it uses.
+#[test]
+fn functions_are_proved_alone() {
+    let alone = |delay: &str, second: &str, outputs: &str, body: &str| -> Vec<Verdict> {
+        let first = format!("function F {{ interface {{ input a; output y{delay}; }} formal {{ y = a; }} }}\n");
+        let (specification, program) = (specification(&(first + second)), program("a, b, c", outputs, "", body));
+        let subject =
+            Subject::new(&specification, &program, Tolerated::default(), &[1]).unwrap_or_else(|e| panic!("{e:#?}"));
+        prove(&subject, &Options::default()).answers.iter().map(|answer| answer.outcome.verdict()).collect()
+    };
+    let (delay, holds) = (" delayed T#1s", [Verdict::Holds]);
+    let uses = "function G { interface { input b; input y; output z; } formal { z = y & b; } }";
+    // y is what the program makes of it, later than `a`; without delay it is `a`, whatever the program has.
+    assert_eq!(alone(delay, uses, "y, z", "LD a\nAND c\nST y\nAND b\nST z"), holds);
+    assert_eq!(alone(delay, uses, "y, z", "LD a\nAND c\nST y\nLD a\nAND b\nST z"), [Verdict::Violated]);
+    assert_eq!(alone("", uses, "z", "LD a\nAND b\nST z"), holds);
+    // Where the program puts y on, a and b are.
+    let restricted =
+        "function G { interface { input a; input y; output z; } formal { z = a; restriction R: always y; } }";
+    assert_eq!(alone(delay, restricted, "y, z", "LD a\nAND b\nST y\nST z"), holds);
+    assert_eq!(alone("", restricted, "z", "LD a\nST z"), holds);
+    // What it does not use need not be there.
+    let other = "function G { interface { input b; output z; } formal { z = b; } }";
+    assert_eq!(alone(delay, other, "z", "LD b\nST z"), holds);
+}
+
+#[test]
+fn proofs_say_what_they_assume() {
+    let text = "function F { interface { input a; output y delayed T#1s; } formal { y = a; } }
+                function G { interface { input b; input y; output z; } formal { z = y & b; } }";
+    let unnamed =
+        "function F { interface { input a; input b; output y delayed T#1s; output z; } formal { y = a; z = b; } }";
+    let right = "LD a\nAND c\nST y\nAND b\nST z\n";
+    let told = |text: &str, more: &str, body: &str, tolerated: Tolerated| {
+        proof_with(text, &program("a, b, c", "y, z", more, &format!("{right}{body}")), tolerated, &Options::default())
+            .assumptions
+    };
+    let free = "inputs that no formula names have any value: `c`";
+    let delayed = "where a formula names a delayed output, it has the value of the program: `y`";
+    let (wrap, zero) = ("numbers that do not fit their type wrap around", "a division by zero gives 0");
+    let fail = "of scans that fail, and of what comes after them, nothing is claimed";
+    let number = "VAR n : INT; END_VAR";
+    let all = Tolerated { overflow: true, division_by_zero: true };
+    assert_eq!(told(text, "", "", all), [free, delayed]);
+    assert_eq!(told(unnamed, "", "", all), [free]);
+    assert_eq!(told(text, number, "LD n\nADD 1\nST n", all), [free, delayed, wrap]);
+    assert_eq!(told(text, number, "LD 6\nDIV n\nST n", all), [free, delayed, wrap, zero]);
+    let none = Tolerated { overflow: false, division_by_zero: false };
+    assert_eq!(told(text, number, "LD 6\nDIV n\nST n", none), [free, delayed, fail]);
+    let timer = "VAR t : TON; d, e : TIME := T#100ms; END_VAR";
+    let clock = "a scan begins every 20 ms; during a scan the clock stands still";
+    let preset = "a timer's preset time does not grow while the timer runs and is not called";
+    assert_eq!(told(text, timer, "CAL t(IN := a, PT := d)", none), [free, delayed, clock]);
+    let computed =
+        told(text, timer, "LD T#300ms\nSUB e\nST d\nCAL t(IN := a, PT := d)", Tolerated { overflow: true, ..none });
+    assert_eq!(computed, [free, delayed, wrap, clock, preset]);
+    let latched = "function F { interface { input a; input c; output y latched until c; } formal { y = a; restriction R: never b; } }
+                   function G { interface { input b; input y; output z; } formal { z = y & b; restriction S: never (a & c); } }";
+    let scopes = ["in every scan for function F, R: never b", "in every scan for function G, S: never (a & c)"];
+    assert_eq!(told(latched, "", "", all), [scopes[0], scopes[1], "before the first scan, nothing is latched"]);
+}
+
 /// What is proved of one output where a restriction is kept says nothing about runs that do not keep it.
 #[test]
 fn proofs_are_used_only_where_they_hold() {
@@ -272,6 +334,19 @@ fn names_are_variables_and_addresses() {
     assert_eq!(codes(&text, &unfit), [Code::SifVariableUnfit; 3]);
     let shared = text.replace("input b;", "input b is A;");
     assert_eq!(codes(&shared, &program("a, b, c", "y", "", "LD a\nST y")), [Code::SifVariableShared]);
+    // An input that only a restriction names may miss, unless it is said what it stands for.
+    assert_eq!(codes(&text, &program("a, c", "y", "", "LD a\nST y")), [Code::SifVariableUnknown]);
+    let restricted = format!("input e is Nowhere; restriction R: never e; {text}");
+    let right = program("a, b, c", "y", "", "LD a\nAND b\nST y");
+    assert_eq!(codes(&restricted, &right), [Code::SifVariableUnknown]);
+    proved(&proof(&restricted.replace(" is Nowhere", ""), &right));
+    // A delayed output that only a restriction names may not.
+    let delayed = "function F { interface { input a; output y delayed T#1s; } formal { y = a; } }
+                   function G { interface { input a; input y; output z; } formal { z = a; restriction R: always y; } }";
+    let delayed = specification(delayed);
+    let without = program("a", "z", "", "LD a\nST z");
+    let errors = Subject::new(&delayed, &without, Tolerated::default(), &[1]).unwrap_err();
+    assert_eq!(errors.iter().map(|(_, told)| told.code).collect::<Vec<_>>(), [Code::SifVariableUnknown]);
     let cycle = function(" latched until y", "y = a & b;");
     assert_eq!(codes(&cycle, &program("a, b, c", "y", "", "LD a\nST y")), [Code::SifCycle]);
 }

@@ -56,6 +56,13 @@ fn intervals_are_those_that_comparisons_make() {
     assert_eq!(values(&program, &[], "k"), Some(vec![-4, 0, 11]));
     assert_eq!(values(&program, &["AG (k = 5 -> !p)"], "k"), Some(vec![-4, 0, 5, 6, 11]));
     assert_eq!(values(&program, &["AG (2 * 20 >= k)"], "k"), Some(vec![-4, 0, 11, 41]));
+    // Along paths and of scans before, too.
+    for text in ["LTL G (k = 5 -> !p)", "AG (pre(k) = 5 -> !p)", "AG (once(k = 5) -> !p)", "AG ((k = 5) since p)"] {
+        assert_eq!(values(&program, &[text], "k"), Some(vec![-4, 0, 5, 6, 11]), "{text}");
+    }
+    for text in ["LTL F (p & k + 1 = 5)", "AG (p since k + 1 = 5)", "AG ((k + 1 = 5) since p)"] {
+        assert_eq!(values(&program, &[text], "k"), None, "{text}");
+    }
     assert_eq!(values(&program, &["AG (k < 500)"], "k"), Some(vec![-4, 0, 11]), "no value of the type");
     assert_eq!(values(&program, &[], "u"), Some(vec![0]), "it is not used");
 }

@@ -170,3 +170,59 @@ pub fn shortest(
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explore::Stop;
+
+    /// The whole graph with these successors.
+    fn graph(successors: &[&[u32]]) -> Graph {
+        let ends = successors.iter().scan(0, |end, row| {
+            *end += row.len() as u64;
+            Some(*end)
+        });
+        let starts = std::iter::once(0).chain(ends).collect();
+        Graph::of_rows(successors.len(), starts, successors.concat(), Stop::Complete)
+    }
+
+    /// The lasso from state 0 inside these states, or inside all.
+    fn near(successors: &[&[u32]], within: &[usize]) -> Option<(Vec<u32>, Option<usize>)> {
+        let mut set = FixedBitSet::with_capacity(successors.len());
+        set.extend(within.iter().copied());
+        set.insert_range(if within.is_empty() { 0..successors.len() } else { 0..0 });
+        near_lasso(&graph(successors), &set, 0).map(|lasso| (lasso.states, lasso.loop_start))
+    }
+
+    #[test]
+    fn a_near_lasso_comes_back_to_its_own_way() {
+        assert_eq!(near(&[&[0]], &[]), Some((vec![], Some(0))));
+        assert_eq!(near(&[&[1], &[1]], &[]), Some((vec![1], Some(1))));
+        assert_eq!(near(&[&[1], &[2], &[0]], &[]), Some((vec![1, 2], Some(0))));
+        assert_eq!(near(&[&[1], &[2], &[1]], &[]), Some((vec![1, 2], Some(1))));
+        assert_eq!(near(&[&[1], &[2], &[]], &[]), Some((vec![1, 2], None)), "paths may end");
+        // State 1 has a shorter loop, and is not inside.
+        assert_eq!(near(&[&[1, 2], &[1], &[0]], &[]), Some((vec![1], Some(1))));
+        assert_eq!(near(&[&[1, 2], &[1], &[0]], &[0, 2]), Some((vec![2], Some(0))));
+        // The step from 1 to 2 leads to a known state that is not on the way to 1.
+        assert_eq!(near(&[&[1, 2], &[2], &[3], &[2]], &[]), Some((vec![2, 3], Some(1))));
+    }
+
+    /// Each state of the loop 1, 2, 3 is reached by a way that the loop does not come back to.
+    #[test]
+    fn any_lasso_serves_where_none_comes_back_to_its_way() {
+        assert_eq!(near(&[&[1, 2], &[2], &[3], &[1]], &[]), Some((vec![1, 2, 3], Some(1))));
+        assert_eq!(near(&[&[4, 2, 1], &[2], &[3], &[1], &[4]], &[0, 1, 2, 3]), Some((vec![1, 2, 3], Some(1))));
+        // State 1, the least, is not inside.
+        let rows: [&[u32]; 5] = [&[1, 2, 3], &[1], &[3], &[4], &[2]];
+        assert_eq!(near(&rows, &[0, 2, 3, 4]), Some((vec![2, 3, 4], Some(1))));
+        // A loop and an end beyond the nearest states.
+        let far = (NEAR + 5) as u32;
+        for (last, loop_start) in [(vec![far - 1], Some(NEAR + 4)), (vec![], None)] {
+            let mut rows: Vec<Vec<u32>> = (1..=far).map(|next| vec![next]).collect();
+            rows.push(last);
+            let rows: Vec<&[u32]> = rows.iter().map(Vec::as_slice).collect();
+            assert_eq!(near(&rows, &[]), Some(((1..=far).collect(), loop_start)));
+        }
+    }
+}

@@ -82,3 +82,101 @@ fn value(formula: &Bound, parts: &BTreeMap<String, usize>, values: u32) -> bool 
         _ => parts.get(&format!("{formula:?}")).is_some_and(|number| values >> number & 1 == 1),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::logic::Quantifier;
+    use crate::semantics::VarId;
+
+    fn not(f: &Bound) -> Bound {
+        Bound::Not(Box::new(f.clone()))
+    }
+
+    fn and(f: &Bound, g: &Bound) -> Bound {
+        Bound::And(Box::new(f.clone()), Box::new(g.clone()))
+    }
+
+    fn or(f: &Bound, g: &Bound) -> Bound {
+        Bound::Or(Box::new(f.clone()), Box::new(g.clone()))
+    }
+
+    fn implies(f: &Bound, g: &Bound) -> Bound {
+        Bound::Implies(Box::new(f.clone()), Box::new(g.clone()))
+    }
+
+    fn until(weak: bool, hold: &Bound, release: &Bound) -> Bound {
+        let (hold, release) = (Box::new(hold.clone()), Box::new(release.clone()));
+        Bound::Until { quantifier: Quantifier::All, weak, hold, release }
+    }
+
+    #[test]
+    fn a_formula_is_true_of_everything_if_its_parts_make_no_difference() {
+        let [a, b] = [0, 1].map(|id| Bound::Variable(VarId(id)));
+        let (yes, no) = (Bound::Truth(true), Bound::Truth(false));
+        let iff = |f: &Bound, g: &Bound| Bound::Iff(Box::new(f.clone()), Box::new(g.clone()));
+        let next = |f: &Bound| Bound::Next(Quantifier::Some, Box::new(f.clone()));
+        let (either, globally) = (or(&a, &not(&a)), |f: &Bound| until(true, f, &no));
+        let always = globally(&or(&b, &not(&b)));
+        let true_of_everything = [
+            yes.clone(),
+            or(&no, &yes),
+            either.clone(),
+            implies(&a, &a),
+            implies(&and(&a, &b), &b),
+            implies(&and(&a, &b), &a),
+            implies(&a, &or(&b, &a)),
+            iff(&a, &a),
+            iff(&and(&a, &b), &and(&b, &a)),
+            or(&and(&a, &b), &or(&not(&a), &not(&b))),
+            // Temporal parts are true of everything, or they are parts like others.
+            always.clone(),
+            and(&either, &always),
+            or(&always, &a),
+            or(&a, &always),
+            implies(&a, &always),
+            next(&either),
+            until(false, &a, &either),
+            until(true, &either, &a),
+            or(&globally(&a), &not(&globally(&a))),
+        ];
+        for formula in &true_of_everything {
+            assert!(is_always_true(formula), "{formula:?}");
+        }
+        let true_of_some = [
+            no.clone(),
+            and(&yes, &no),
+            a.clone(),
+            not(&a),
+            or(&a, &b),
+            implies(&a, &b),
+            implies(&or(&a, &b), &b),
+            implies(&or(&a, &b), &a),
+            iff(&a, &b),
+            iff(&a, &not(&a)),
+            and(&either, &b),
+            and(&b, &either),
+            and(&always, &globally(&a)),
+            or(&globally(&a), &b),
+            implies(&a, &globally(&b)),
+            next(&a),
+            until(false, &either, &a),
+            until(true, &a, &b),
+        ];
+        for formula in &true_of_some {
+            assert!(!is_always_true(formula), "{formula:?}");
+        }
+    }
+
+    /// The values of 12 parts are tried, those of 13 are not.
+    #[test]
+    fn the_values_of_many_parts_are_not_tried() {
+        let all_imply_the_first = |count: usize| {
+            let parts: Vec<Bound> = (0..count).map(|id| Bound::Variable(VarId(id))).collect();
+            let all = parts[1..].iter().fold(parts[0].clone(), |all, part| and(&all, part));
+            implies(&all, &parts[0])
+        };
+        assert!(is_always_true(&all_imply_the_first(MOST)));
+        assert!(!is_always_true(&all_imply_the_first(MOST + 1)));
+    }
+}

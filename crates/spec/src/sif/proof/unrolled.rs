@@ -228,3 +228,32 @@ fn is_between(solver: &mut Solver, bits: &[Literal], is_signed: bool, least: i12
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sif::Answer;
+
+    /// Every range of numbers of 4 bits: a number is left exactly if it lies in the range.
+    #[test]
+    fn numbers_in_their_range_are_left_and_no_others() {
+        const BITS: u32 = 4;
+        for is_signed in [false, true] {
+            let first = if is_signed { -8 } else { 0 };
+            for (least, greatest) in
+                (first..first + 16).flat_map(|least| (least..first + 16).map(move |to| (least, to)))
+            {
+                let mut solver = Solver::default();
+                let bits: Vec<Literal> = (0..BITS).map(|_| solver.fresh()).collect();
+                is_between(&mut solver, &bits, is_signed, least, greatest);
+                for number in first..first + 16 {
+                    let has =
+                        |(position, &bit): (usize, &Literal)| if number >> position & 1 == 1 { bit } else { !bit };
+                    let assumed: Vec<Literal> = bits.iter().enumerate().map(has).collect();
+                    let is_left = solver.solve(&assumed) == Answer::Satisfiable;
+                    assert_eq!(is_left, (least..=greatest).contains(&number), "{number} in {least}..{greatest}");
+                }
+            }
+        }
+    }
+}
