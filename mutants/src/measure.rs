@@ -7,6 +7,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
+use crate::plant::LINTS;
 use crate::process::{self, Ended, Test};
 
 pub fn measure(copy: &Path, programs: &[String]) {
@@ -16,7 +17,7 @@ pub fn measure(copy: &Path, programs: &[String]) {
         let list = Command::new(&path).args(["--list", "--format", "terse"]).current_dir(copy).output();
         let list = String::from_utf8(list.expect("tests can be listed").stdout).expect("names are UTF-8");
         let names = list.lines().filter_map(|line| line.strip_suffix(": test"));
-        for name in names.flat_map(|name| if program == "cli" { sessions(copy, name) } else { vec![name.to_owned()] }) {
+        for name in names.flat_map(|name| if name.starts_with("cli::") { sessions(copy, name) } else { vec![name.to_owned()] }) {
             if known.iter().any(|test| test.program == program && test.name == name) {
                 continue;
             }
@@ -57,7 +58,8 @@ fn sessions(copy: &Path, test: &str) -> Vec<String> {
 /// Builds test programs: their names and files.
 fn build(copy: &Path, programs: &[String]) -> Vec<(String, String)> {
     let mut command = Command::new("cargo");
-    command.args(["test", "--offline", "--no-run", "--message-format=json", "--quiet"]).current_dir(copy);
+    command.args(["test", "--offline", "--workspace", "--no-run", "--message-format=json", "--quiet"]);
+    command.env("RUSTFLAGS", LINTS).current_dir(copy);
     for program in programs {
         match program.as_str() {
             "lib" => command.arg("--lib"),

@@ -10,6 +10,9 @@ use serde_json::Value;
 use crate::find::{self, Found};
 use crate::splice::{Spliced, splice};
 
+/// Flags of all builds of the copy: lints are not about code that nobody reads.
+pub const LINTS: &str = "--cap-lints=allow";
+
 /// Folder of the repository: the one that holds this project.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -39,17 +42,13 @@ pub fn plant(copy: &Path, wanted: &[String]) {
         let is_chosen =
             |wanted: &String| name == *wanted || name.starts_with(&format!("{}/", wanted.trim_end_matches('/')));
         let is_tests = name.ends_with("/tests.rs") || name.contains("/tests/");
-        if name.starts_with("src/") && name.ends_with(".rs") && !is_tests && wanted.iter().any(is_chosen) {
+        let is_source = ["src/", "crates/"].iter().any(|folder| name.starts_with(folder)) && name.ends_with(".rs");
+        if is_source && !is_tests && wanted.iter().any(is_chosen) {
             let source = String::from_utf8(bytes).expect("sources are UTF-8");
             found.extend(find::faults(&name, &source));
             sources.insert(name, source);
-        } else if name == "Cargo.toml" {
-            // Lints are not about code that nobody reads.
-            let text = String::from_utf8(bytes).expect("a manifest is UTF-8");
-            let lints = text.find("[lints.rust]").zip(text.find("# Tests explore"));
-            let (start, end) = lints.expect("the manifest has lints, then profiles");
-            write(&copy.join(name), format!("{}{}", &text[..start], &text[end..]).as_bytes());
-        } else if name == "src/lib.rs" {
+        } else if name == "crates/base/src/lib.rs" {
+            // All other crates stand on this one.
             let text = String::from_utf8(bytes).expect("sources are UTF-8");
             write(&copy.join(name), format!("{text}\n#[doc(hidden)]\npub mod mutant;\n").as_bytes());
         } else {
@@ -60,7 +59,7 @@ pub fn plant(copy: &Path, wanted: &[String]) {
         found.fault.number = number;
     }
     let switch = format!("{}\nconst COUNT: usize = {};\n", include_str!("switch.in"), found.len() + 1);
-    write(&copy.join("src/mutant.rs"), switch.as_bytes());
+    write(&copy.join("crates/base/src/mutant.rs"), switch.as_bytes());
     let faults: Vec<_> = found.iter().map(|found| &found.fault).collect();
     let faults = serde_json::to_vec(&faults).expect("faults are plain data");
     let is_known = fs::read(copy.join("faults.json")).is_ok_and(|old| old == faults);
@@ -94,7 +93,8 @@ fn compile(copy: &Path, spliced: &BTreeMap<&str, Spliced>) -> BTreeSet<u32> {
     let mut command = Command::new("cargo");
     // With a test, so that dependencies have the features that tests are built with.
     command
-        .args(["build", "--offline", "--lib", "--test", "layers", "--message-format=json", "--quiet"])
+        .args(["build", "--offline", "--workspace", "--lib", "--test", "layers", "--message-format=json", "--quiet"])
+        .env("RUSTFLAGS", LINTS)
         .current_dir(copy);
     let output = command.output().expect("cargo runs");
     let mut blamed = BTreeSet::new();

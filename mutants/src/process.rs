@@ -68,7 +68,7 @@ pub fn run(copy: &Path, test: &Test, switch: (&str, &str), limit: f64) -> (Ended
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).process_group(0);
     let mut child = command.spawn().unwrap_or_else(|error| panic!("{}: {error}", test.path));
     let (mut pause, group) = (Duration::from_micros(500), child.id().to_string());
-    let idle = if test.program == "cli" { 10.0 * IDLE } else { IDLE };
+    let idle = if test.name.starts_with("cli::") { 10.0 * IDLE } else { IDLE };
     let mut waited = Duration::ZERO;
     let ended = loop {
         if let Some(status) = child.try_wait().expect("a child can be waited for") {

@@ -71,7 +71,7 @@ fn write<'f>(
         let start = out.text.len();
         match switch.place {
             Place::Guard => {
-                let on = switch.found.iter().map(|found| format!("!crate::mutant::on({})", found.fault.number));
+                let on = switch.found.iter().map(|found| format!("!petril_base::mutant::on({})", found.fault.number));
                 out.text += &format!(" if {} ", on.collect::<Vec<_>>().join(" && "));
             }
             Place::Entry => choices(out, &switch, "if", ""),
@@ -91,7 +91,7 @@ fn write<'f>(
 fn choices(out: &mut Spliced, switch: &Switch<'_>, first: &str, last: &str) {
     for (i, found) in switch.found.iter().enumerate() {
         let word = if i == 0 { first } else { " else if" };
-        out.text += &format!("{word} crate::mutant::on({}) {{ ", found.fault.number);
+        out.text += &format!("{word} petril_base::mutant::on({}) {{ ", found.fault.number);
         let start = out.text.len();
         out.text += &found.text;
         out.faulty.push((start..out.text.len(), found.fault.number));

@@ -174,7 +174,7 @@ pub fn shortest(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explore::Stop;
+    use petril_search::Stop;
 
     /// The whole graph with these successors.
     fn graph(successors: &[&[u32]]) -> Graph {

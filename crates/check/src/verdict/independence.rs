@@ -86,8 +86,8 @@ fn value(formula: &Bound, parts: &BTreeMap<String, usize>, values: u32) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::logic::Quantifier;
-    use crate::semantics::VarId;
+    use petril_lang::semantics::VarId;
+    use petril_logic::Quantifier;
 
     fn not(f: &Bound) -> Bound {
         Bound::Not(Box::new(f.clone()))
