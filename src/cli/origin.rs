@@ -1,4 +1,4 @@
-//! Where the reports of a run come from, as far as is known yet.
+//! Provenance of the reports of a run, as far as it is known yet.
 
 use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -7,7 +7,7 @@ use petril::exchange::Provenance;
 
 use super::seen::{Seen, sha256};
 
-/// What was read, and what was asked for.
+/// Inputs read, and options asked for.
 #[derive(Debug, Default)]
 pub struct Origin {
     seen: Mutex<Seen>,
@@ -23,7 +23,7 @@ impl Origin {
         Self { read_before, ..Self::default() }
     }
 
-    /// What was seen of the file system.
+    /// Files and patterns read.
     pub fn seen(&self) -> MutexGuard<'_, Seen> {
         lock(&self.seen)
     }
@@ -33,7 +33,7 @@ impl Origin {
         *lock(&self.options) = sha256(format!("{options:?}").as_bytes());
     }
 
-    /// Where a report comes from that is made now.
+    /// Provenance of a report made now.
     pub fn provenance(&self) -> Provenance {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
         let mut inputs = self.read_before.clone();

@@ -263,7 +263,7 @@ impl Graph {
         parents
     }
 
-    /// Bytes that its lists take at once, beside those in use, if all of so many states are expanded and so many steps added.
+    /// Memory in bytes, beside that in use, for growing the lists to `states` expanded states and `steps` more steps.
     pub(super) fn growth(&self, states: usize, steps: usize) -> u64 {
         let rows = states.saturating_sub(self.expanded());
         growth(&self.row_of, rows) + growth(&self.starts, rows) + growth(&self.targets, steps)

@@ -179,7 +179,7 @@ impl Search<'_> {
         self.graph.bytes() + self.states.bytes() + self.rows.bytes() + self.firsts.capacity() as u64 * 4
     }
 
-    /// Why the next batch, of so many successors, is not to be entered.
+    /// Reason why the next batch of successors is not to be inserted.
     fn exhausted(&self, successors: usize) -> Option<Stop> {
         let states = self.budget.states;
         let rows = self.rows.growth(successors + TOGETHER);

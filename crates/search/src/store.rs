@@ -68,8 +68,7 @@ impl Store {
         }
     }
 
-    /// Bytes that entering so many states more takes at once, beside those in use: of the table, which becomes another one, and of the
-    /// list.
+    /// Memory in bytes, beside that in use, for inserting `more` states: of the table, which is rebuilt, and of the list.
     pub fn growth(&self, more: usize) -> (u64, u64) {
         (self.table.growth(more + BATCH), growth(&self.arena, more.saturating_mul(self.words)))
     }
@@ -80,7 +79,7 @@ impl Store {
     }
 }
 
-/// Bytes that a list takes at once if so many items are added.
+/// Memory in bytes that a list takes when it grows by `more` items; 0 if it need not grow.
 pub fn growth<T>(list: &Vec<T>, more: usize) -> u64 {
     let len = list.len().saturating_add(more);
     let grown = if len > list.capacity() { len.max(list.capacity().saturating_mul(2)) } else { 0 };

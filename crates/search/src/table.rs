@@ -97,7 +97,7 @@ impl Table {
         }
     }
 
-    /// Bytes that making room for so many numbers more takes at once, beside those in use.
+    /// Memory in bytes, beside that in use, for making room for `more` numbers; 0 if there is room.
     pub fn growth(&self, more: usize) -> u64 {
         let mut lines = self.lines.len();
         while self.len + more > lines * LINE / 8 * 7 {

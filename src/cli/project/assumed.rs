@@ -1,4 +1,4 @@
-//! What the verdicts on the programs of a project rest on: each assumption once.
+//! Assumptions of the verdicts on the programs of a project, each once.
 
 use petril::printable::line;
 
@@ -6,7 +6,7 @@ use super::run::Judged;
 use crate::cli::console::Console;
 use crate::cli::report::{counted, paragraph};
 
-/// So many programs are named with an assumption; more are counted.
+/// Upper bound on the programs named with an assumption; more are counted.
 const NAMED: usize = 3;
 
 /// A line for each assumption, with the programs it is made of, if these are not all.

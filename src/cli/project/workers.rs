@@ -28,7 +28,7 @@ use crate::cli::{Failure, sign_of_life};
 /// Between two looks at those who work.
 const TICK: Duration = Duration::from_millis(20);
 
-/// What all workers share.
+/// State shared by all workers.
 struct Work {
     checks: Vec<(Check, Entry)>,
     next: AtomicUsize,

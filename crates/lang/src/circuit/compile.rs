@@ -107,7 +107,7 @@ struct Compiler<'p> {
     lines: Vec<(usize, Wire)>,
 }
 
-/// What is known where control is, beside the memory.
+/// Symbolic state at a point of control, beside the memory.
 struct Flow {
     /// Condition under which control reaches this point.
     active: Wire,

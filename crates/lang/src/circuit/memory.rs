@@ -1,26 +1,26 @@
-//! The bits of all variables while a scan is compiled, as control has them that goes on; and as control had them that has jumped to
-//! a line further on. What the latter had follows from the changes made since, so a jump costs nothing, and where parts of control
-//! meet only bits are looked at that have changed.
+//! Symbolic memory while a scan is compiled: the bits of all variables at the current point of control, and a log of changes. A jump
+//! records only its position in the log, from which its own memory follows; so a jump costs nothing, and a join looks only at bits
+//! that have changed.
 
 use std::collections::BTreeMap;
 
 use super::gates::{Network, Wire};
 
-/// Control that has jumped.
+/// Branch of control that has jumped to a line further on.
 pub(super) struct Jumped {
-    /// When control comes by this way.
+    /// Condition under which the jump is taken.
     pub(super) active: Wire,
     pub(super) result: Vec<Wire>,
-    /// How many changes had been made.
+    /// Length of the log at the jump.
     pub(super) since: usize,
 }
 
-/// The bits, and the changes that led to them.
+/// Bits with the log of their changes.
 pub(super) struct Memory {
     bits: Vec<Wire>,
-    /// Each change: the bit, and what it was before.
+    /// Log of changes: the bit, and its wire before.
     changes: Vec<(usize, Wire)>,
-    /// For each bit, the look in which it was last seen.
+    /// For each bit, the number of the last look at the log that met it.
     seen: Vec<usize>,
     looks: usize,
 }
@@ -34,12 +34,12 @@ impl Memory {
         &self.bits
     }
 
-    /// How many changes were made.
+    /// Length of the log.
     pub(super) fn changes(&self) -> usize {
         self.changes.len()
     }
 
-    /// Gives some bits, from `first` on, what they are now.
+    /// Sets the bits from `first` on.
     pub(super) fn set(&mut self, first: usize, wires: &[Wire]) {
         for (at, &wire) in (first..).zip(wires) {
             let before = std::mem::replace(&mut self.bits[at], wire);
@@ -49,26 +49,25 @@ impl Memory {
         }
     }
 
-    /// The bits that were changed after so many changes, each with what it was then.
+    /// Bits changed since a position in the log, each with its wire there.
     fn since(&mut self, changes: usize) -> Vec<(usize, Wire)> {
         self.looks += 1;
         let (seen, look) = (&mut self.seen, self.looks);
-        // The first change of a bit says what it was.
+        // The first change of a bit holds its wire from before.
         let first = |(at, _): &(usize, Wire)| std::mem::replace(&mut seen[*at], look) != look;
         self.changes[changes..].iter().copied().filter(first).collect()
     }
 
-    /// Makes the bits what they were.
+    /// Restores the memory of a jump.
     pub(super) fn return_to(&mut self, jumped: &Jumped) {
         for (at, then) in self.since(jumped.since) {
             self.set(at, &[then]);
         }
     }
 
-    /// Makes the bits those of control that comes here by several ways: what they are now, or, where control has jumped, what they
-    /// were then.
+    /// Joins the current memory with those of jumps, by multiplexers on the conditions of the jumps.
     pub(super) fn join(&mut self, network: &mut Network, jumped: &[Jumped]) {
-        // For each bit what it was, and when control comes with that. Ways with the same value take one choice.
+        // For each bit its wires at the jumps, with the conditions; equal wires one after another share a multiplexer.
         let mut values: BTreeMap<usize, Vec<(Wire, Wire)>> = BTreeMap::new();
         for jumped in jumped {
             for (at, then) in self.since(jumped.since) {

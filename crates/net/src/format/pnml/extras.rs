@@ -1,4 +1,4 @@
-//! What a document can say of the nodes of a net beside its structure: positions, and notes in tool sections.
+//! Extras of a document beside the structure of the net: positions of nodes, and notes in tool sections.
 
 /// A position in the plane, in the units of PNML: x to the right, y down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -18,7 +18,7 @@ pub struct Positions {
     pub transitions: Vec<Point>,
 }
 
-/// What there is to say about one node: pairs of a word and a value, in the order to be written.
+/// Notes on one node: pairs of a word and a value, in the order to be written.
 pub type Note = Vec<(&'static str, String)>;
 
 /// A note on every node of a net.
