@@ -13,7 +13,7 @@ use std::sync::atomic::AtomicBool;
 
 use fixedbitset::FixedBitSet;
 
-use super::label::leading_to;
+use super::reach::leading_to;
 use petril_search::{Components, Graph, components};
 
 /// Fairness constraints on the paths of a graph, as sets of its states.

@@ -17,6 +17,7 @@ use super::bound::Bound;
 use super::dag::{Dag, Node, NodeId};
 use super::fairness::{Fairness, endings};
 use super::formula::Quantifier;
+use super::reach::leading_through;
 use super::sweep::grow;
 use petril_search::Graph;
 
@@ -69,15 +70,6 @@ pub fn label_from(
     let mut sets = Vec::with_capacity(dag.nodes().len());
     Labeller { graph, open: &graph.open(), fairness: None, stopping }.label(dag, holding, &mut sets);
     (!stopping.load(Ordering::Relaxed)).then_some(Labels { sets })
-}
-
-/// States from which known steps lead to a set (backward reachability). If `stopping` is set meanwhile, some may be
-/// missing.
-#[must_use]
-pub fn leading_to(graph: &Graph, set: &FixedBitSet, stopping: &AtomicBool) -> FixedBitSet {
-    let mut all = FixedBitSet::with_capacity(graph.len());
-    all.insert_range(..);
-    Labeller { graph, open: &graph.open(), fairness: None, stopping }.way(&all, set)
 }
 
 struct Labeller<'a> {
@@ -144,8 +136,7 @@ impl Labeller<'_> {
     /// States from which known steps lead through states with f to a state with g, whether or not a fair path continues
     /// there.
     fn way(&self, f: &FixedBitSet, g: &FixedBitSet) -> FixedBitSet {
-        let some = |set: &FixedBitSet, row: &[u32]| row.iter().any(|&next| set.contains(next as usize));
-        grow(self.graph, g.clone(), f, self.stopping, &|set, state| some(set, self.graph.successors(state)))
+        leading_through(self.graph, f, g, self.stopping)
     }
 
     /// Adds the states of `within` all of whose known steps lead into the set, and which have a step, known or unknown.

@@ -16,6 +16,7 @@ mod ltl;
 mod mentions;
 mod parse;
 mod past;
+mod reach;
 mod scope;
 mod simplify;
 mod sweep;
@@ -33,7 +34,7 @@ pub use domain::DomainText;
 pub use evidence::{Claim, Evidence, evidence};
 pub use fairness::{Constraint, Constraints, Fairness, FairnessAssumption, FairnessText, Recurrence};
 pub use formula::{Amount, Comparison, Duration, Expression, Formula, Past as PastOperator, Quantifier, Temporal};
-pub use label::{Labels, label, label_from, label_until, leading_to};
+pub use label::{Labels, label, label_from, label_until};
 pub use lasso::{Lasso, near_lasso, shortest};
 pub use literal::number;
 pub use ltl::{Counterexample, Path, Search, search};
@@ -43,6 +44,7 @@ pub use parse::{
     parse_fairness, parse_formula, parse_requirement, parse_requirements, two_comparisons,
 };
 pub use past::{History, Past, remembered};
+pub use reach::leading_to;
 pub use text::Names;
 pub use vacuity::{Premise, Step, premises};
 pub use view::View;

@@ -1,7 +1,7 @@
 //! Assertions: formulas that must hold whenever control reaches an instruction.
 
-use super::assumption::looks_back_one_scan;
 use super::bind::bind;
+use super::recalled::looks_back_one_scan;
 use crate::translate::{PlaceRole, System};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_lang::syntax::without_comments;

@@ -41,6 +41,6 @@ fn shown(view: &ScanView<'_>, state: u32) -> Outcome {
             let text = "the assumptions allow no inputs for the next scan".to_owned();
             Outcome::Violated(Witness { trace, notes: vec![Note { first: last, last, text }] }, None)
         }
-        Err(disagreement) => super::check::disagreed(&disagreement.to_string()),
+        Err(disagreement) => Outcome::refuted(&disagreement.to_string()),
     }
 }

@@ -35,7 +35,7 @@ pub fn answers(view: &ScanView<'_>, assertions: &[Assertion], stopped: &mut dyn 
         // States are numbered by distance (breadth-first); the scan from power-on (`None`) comes before them.
         match found.iter().flatten().filter(own).min_by_key(|seen| seen.from) {
             Some(seen) => shown(view, &assertion.formula, watched[seen.watched].1, seen)
-                .unwrap_or_else(|disagreement| super::check::disagreed(&disagreement.to_string())),
+                .unwrap_or_else(|disagreement| Outcome::refuted(&disagreement.to_string())),
             None if view.graph.is_complete() && view.graph.knows_initial() => Outcome::holds(),
             None => Outcome::Unknown(what_is_missing(&view.graph)),
         }

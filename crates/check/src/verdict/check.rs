@@ -1,60 +1,24 @@
 //! Model checking of a system: one exploration, then every requirement on its state graph.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::prelude::*;
 
-use super::assumptions::assumptions;
 use super::coverage::coverage;
-use super::failing::what_is_missing;
 use super::fairness::Fair;
 use super::independence::{Independence, independence};
+use super::judge::{Judge, STOPPED, whole};
 use super::news::{InOrder, Tell};
-use super::premises::{Occurrence, occurrence};
+use super::options::Options;
 use super::refused::refused;
 use super::remarks::remarks;
 use super::remembering::RememberingView;
-use super::views::{ScanView, SystemView, TransitionView, witness};
-use super::why::{Broken, why};
-use super::{
-    Answer, Exploration, Outcome, Report, Verdict, Witness, admitted, asserted, every_line, hazards, scan_ends,
-};
-use crate::requirement::{Assertion, Assumed, Assumption, Demand};
+use super::views::{ScanView, SystemView, TransitionView};
+use super::{Answer, Outcome, Report, Verdict, admitted, asserted, every_line, hazards, scan_ends};
+use crate::requirement::{Assumed, Demand};
 use crate::scans::{Admission, ScanSpace, never_executed};
 use crate::translate::System;
-use crate::witness::Disagreement;
-use petril_lang::flat::Tolerated;
-use petril_logic::{
-    Bound, Dag, Evidence, FairnessAssumption, History, Labels, NodeId, Requirement, View, evidence, label, label_until,
-};
+use petril_logic::{Bound, FairnessAssumption, History, Requirement, View};
 use petril_net::Markings;
 use petril_search::{Budget, Graph, Progress, explore, watched};
-
-/// Options of a check.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// State space: one state per scan, or one per marking.
-    pub view: View,
-    /// Fairness assumptions, bound for the system and the view; only runs that meet all of them count.
-    pub fairness: Vec<FairnessAssumption>,
-    /// Limits of the exploration.
-    pub budget: Budget,
-    /// Hazards that are not errors. In the scan view, other hazards end the run.
-    pub tolerated: Tolerated,
-    /// Assumptions about the inputs of each scan (scan view only).
-    pub assumptions: Vec<Assumption>,
-    /// Assertions at lines of the program.
-    pub assertions: Vec<Assertion>,
-}
-
-impl Default for Options {
-    /// Scan view, no hazard tolerated, no assumptions, no fairness.
-    fn default() -> Self {
-        let (budget, tolerated) = (Budget::default(), Tolerated::default());
-        let (assumptions, assertions, fairness) = (Vec::new(), Vec::new(), Vec::new());
-        Self { view: View::Scan, fairness, budget, tolerated, assumptions, assertions }
-    }
-}
 
 /// Explores a system and decides the requirements. `watch` can end the exploration; whatever the explored part decides is
 /// then decided. A requirement that was bound for the other view, or for a system with other variables and places, makes
@@ -115,7 +79,7 @@ fn check_scans(
         checks: ends.chain(hazards).chain(inputs).collect(),
         remarks: remarks(space, graph, never.as_deref().unwrap_or_default()),
         coverage: Some(coverage(system, asked(requirements, options), never)),
-        ..report(system, requirements, options, graph, left_out)
+        ..options.report(system, requirements, graph, left_out)
     }
 }
 
@@ -126,11 +90,6 @@ pub(super) fn asked<'r>(
 ) -> impl Iterator<Item = &'r Bound> {
     let required = requirements.iter().filter_map(|(_, demand)| demand.formula());
     required.chain(options.assertions.iter().map(|assertion| &assertion.formula))
-}
-
-/// The graph, if it is complete and not empty.
-fn whole(graph: &Graph) -> Option<&Graph> {
-    (graph.is_complete() && !graph.is_empty()).then_some(graph)
 }
 
 /// Progress figures of a finished search.
@@ -202,7 +161,7 @@ fn outcomes(
         left_out = left_out.or_else(|| fair.as_ref().and_then(Fair::left_out));
         // States left out by fairness are reported above the answers.
         if fair.is_none() || left_out.is_some() || rest == 0 {
-            told.begin(|| report(view.system(), requirements, options, &view.graph, left_out.clone()));
+            told.begin(|| options.report(view.system(), requirements, &view.graph, left_out.clone()));
         }
         let (judged, reason) = watched(watch, &progress, |stopping| {
             let judge = Judge { view: view_of, graph: view_of.graph(), fair: fair.as_ref(), budget, stopping };
@@ -224,9 +183,6 @@ fn outcomes(
     }
     (outcomes, left_out)
 }
-
-/// Outcome of an interrupted question. The reason is added by [`explained`].
-pub(super) const STOPPED: Outcome = Outcome::Unknown(String::new());
 
 /// Reports a final answer. An interrupted one gets its reason later.
 fn tell(told: &InOrder<'_>, position: usize, outcome: &Outcome, answer: impl FnOnce() -> Answer) {
@@ -258,7 +214,7 @@ fn check_markings(
     let graph = view.graph();
     let fair = Fair::on(&view, &options.fairness);
     let left_out = fair.as_ref().and_then(Fair::left_out);
-    told.begin(|| report(system, requirements, options, graph, left_out.clone()));
+    told.begin(|| options.report(system, requirements, graph, left_out.clone()));
     // Assertions and built-in checks range over all runs, fair or not.
     let hazards: Vec<_> = hazards::checked(&system.program, options.tolerated).collect();
     let mut unfair: Vec<Bound> = options.assertions.iter().map(|assertion| assertion.as_formula(system)).collect();
@@ -289,181 +245,5 @@ fn check_markings(
     let ends: Vec<Answer> = unfair.next().map(scan_ends::answer).into_iter().collect();
     let hazards = hazards.into_iter().zip(unfair).map(|(hazard, outcome)| hazards::answer(hazard, outcome));
     let checks = ends.into_iter().chain(hazards).collect();
-    Report { answers, checks, ..report(system, requirements, options, graph, left_out) }
-}
-
-/// Builds a report without answers.
-pub(super) fn report(
-    system: &System,
-    requirements: &[(Requirement, Demand)],
-    options: &Options,
-    graph: &Graph,
-    left_out: Option<String>,
-) -> Report {
-    // Depth counts steps; in the scan view the first scan is a step, too.
-    let depth = graph.depth() + usize::from(options.view == View::Scan && !graph.is_empty());
-    let timed = requirements.iter().any(|(requirement, _)| requirement.speaks_of_time())
-        || options.fairness.iter().any(|assumed| assumed.speaks_of_time);
-    Report {
-        exploration: Exploration {
-            view: options.view,
-            states: graph.len(),
-            steps: graph.steps(),
-            depth,
-            complete: graph.is_complete(),
-            stop: graph.stop().clone(),
-            bytes: graph.bytes(),
-            recalled: false,
-        },
-        assumptions: assumptions(system, options, timed).into_iter().chain(left_out).collect(),
-        warnings: Vec::new(),
-        answers: Vec::new(),
-        checks: Vec::new(),
-        remarks: Vec::new(),
-        coverage: None,
-    }
-}
-
-/// Decides formulas on a state graph.
-#[derive(Clone, Copy)]
-pub(super) struct Judge<'a> {
-    pub view: &'a dyn SystemView,
-    pub graph: &'a Graph,
-    /// Fairness assumptions, if any.
-    pub fair: Option<&'a Fair<'a>>,
-    /// Limits for the product with an LTL automaton.
-    pub budget: Budget,
-    /// Whether the search is to stop.
-    pub stopping: &'a AtomicBool,
-}
-
-impl Judge<'_> {
-    fn is_stopped(&self) -> bool {
-        self.stopping.load(Ordering::Relaxed)
-    }
-
-    fn outcome(&self, formula: &Bound) -> Outcome {
-        if self.is_stopped() {
-            return STOPPED;
-        }
-        if let Bound::Ltl(path) = formula {
-            return self.outcome_on_paths(path);
-        }
-        let Self { graph, .. } = *self;
-        let Some(labelled) = self.labelled(formula) else { return STOPPED };
-        match self.broken(&labelled) {
-            Some(Outcome::Violated(witness, why)) => {
-                let why = why.map(|mut why| {
-                    why.wanted.extend(self.elsewhere(&labelled));
-                    why
-                });
-                return Outcome::Violated(witness, why);
-            }
-            Some(disagreed) => return disagreed,
-            None => {}
-        }
-        let Labelled { dag, labels, yes, .. } = &labelled;
-        let is_true = graph.initial().iter().all(|&state| labels.of(*yes).contains(state as usize));
-        if let Some(reason) = self.undecided(is_true) {
-            return Outcome::Unknown(reason);
-        }
-        match dag.is_existential(*yes).then(|| self.shown(&labelled, *yes)).flatten() {
-            Some(Err(disagreement)) => disagreed(&disagreement.to_string()),
-            Some(Ok((witness, _))) => self.holds(formula, Some(witness)),
-            None => self.holds(formula, None),
-        }
-    }
-
-    /// Labels the states with the formula and its negation; `None` if interrupted.
-    pub(super) fn labelled<'f>(&self, formula: &'f Bound) -> Option<Labelled<'f>> {
-        let mut dag = Dag::default();
-        let (yes, no) = (dag.add(formula, false), dag.add(formula, true));
-        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
-        let labels = label_until(self.graph, &dag, &holds, self.fair.map(|fair| &fair.paths), self.stopping)?;
-        Some(Labelled { formula, dag, yes, no, labels })
-    }
-
-    /// Evidence: a fair run from an initial state that satisfies the node, replayed, if there is one.
-    pub(super) fn shown(
-        &self,
-        Labelled { dag, labels, .. }: &Labelled<'_>,
-        node: NodeId,
-    ) -> Option<Result<(Witness, Evidence), Disagreement>> {
-        let Self { view, graph, fair, .. } = *self;
-        let (paths, assumed) = (fair.map(|fair| &fair.paths), fair.map_or(&[][..], |fair| fair.assumptions));
-        let beginnings: Vec<u32> = graph.initial().iter().copied().filter(|&state| self.counts(state)).collect();
-        let evidence = evidence(graph, dag, labels, paths, node, &beginnings)?;
-        Some(witness(view, dag, &evidence, assumed, &|_, _| ()).map(|witness| (witness, evidence)))
-    }
-
-    /// The violation, if a known initial state violates the formula.
-    pub(super) fn broken(&self, labelled: &Labelled<'_>) -> Option<Outcome> {
-        let Self { view, graph, .. } = *self;
-        Some(match self.shown(labelled, labelled.no)? {
-            Ok((witness, evidence)) => {
-                let Labelled { formula, dag, labels, no: negation, .. } = labelled;
-                let broken = Broken { view, graph, formula, dag, negation: *negation, labels, evidence: &evidence };
-                let why = why(broken, &witness);
-                Outcome::Violated(witness, why)
-            }
-            Err(disagreement) => disagreed(&disagreement.to_string()),
-        })
-    }
-
-    /// The outcome "holds", with vacuity check and example.
-    pub(super) fn holds(&self, formula: &Bound, witness: Option<Witness>) -> Outcome {
-        if self.is_stopped() {
-            return STOPPED;
-        }
-        let paths = self.fair.map(|fair| &fair.paths);
-        let occurrence = whole(self.graph).map(|graph| occurrence(self.view, graph, paths, formula)).transpose();
-        match occurrence {
-            Ok(occurrence) => {
-                let Occurrence { vacuous, example } = occurrence.unwrap_or_default();
-                Outcome::Holds { vacuous, witness, example }
-            }
-            Err(disagreement) => disagreed(&disagreement.to_string()),
-        }
-    }
-
-    /// Whether a fair run surely begins in a state.
-    pub(super) fn counts(&self, state: u32) -> bool {
-        self.fair.is_none_or(|fair| fair.paths.surely().contains(state as usize))
-    }
-
-    /// Reason why a requirement without a known counterexample cannot be said to hold, if so; `is_true` says that all
-    /// known initial states satisfy it. A requirement holds only if every initial state is known and a fair run surely
-    /// begins there: truth for lack of fair runs is not an answer.
-    pub(super) fn undecided(&self, is_true: bool) -> Option<String> {
-        let Self { graph, fair, .. } = *self;
-        if let Some(vain) = fair.and_then(|fair| fair.vain.as_ref()) {
-            return Some(vain.clone());
-        }
-        let begins = graph.knows_initial() && graph.initial().iter().all(|&state| self.counts(state));
-        (!(is_true && begins)).then(|| what_is_missing(graph))
-    }
-
-    /// Whether no state of a fair run satisfies a formula.
-    pub(super) fn holds_nowhere(&self, formula: &Bound) -> bool {
-        let mut dag = Dag::default();
-        let node = dag.add(formula, false);
-        let holds = |formula: &Bound, state: u32| self.view.holds(formula, self.graph.state(state));
-        let paths = self.fair.map(|fair| &fair.paths);
-        let labels = label(self.graph, &dag, &holds, paths);
-        paths.map_or_else(|| labels.of(node).is_clear(), |paths| labels.of(node).is_disjoint(paths.surely()))
-    }
-}
-
-/// A formula and its negation with the states that satisfy each subformula.
-pub(super) struct Labelled<'f> {
-    pub formula: &'f Bound,
-    pub dag: Dag,
-    pub yes: NodeId,
-    pub no: NodeId,
-    pub labels: Labels,
-}
-
-/// Outcome where replay and search disagree (an error in Petril).
-pub fn disagreed(what: &str) -> Outcome {
-    Outcome::Unknown(format!("the replay refutes the search, which is an error in Petril; please report it: {what}"))
+    Report { answers, checks, ..options.report(system, requirements, graph, left_out) }
 }

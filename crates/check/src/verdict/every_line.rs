@@ -32,6 +32,6 @@ pub fn outcome(view: &ScanView<'_>) -> Outcome {
             });
             Outcome::Violated(Witness { trace, notes: notes.collect() }, None)
         }
-        Err(disagreement) => super::check::disagreed(&disagreement.to_string()),
+        Err(disagreement) => Outcome::refuted(&disagreement.to_string()),
     }
 }

@@ -49,6 +49,6 @@ pub fn on_scans(space: &ScanSpace<'_>, graph: &Graph, hazard: Hazard) -> Outcome
             let why = of_error(space.system(), &witness);
             Outcome::Violated(witness, why)
         }
-        Failing::Refuted(disagreement) => super::check::disagreed(&disagreement.to_string()),
+        Failing::Refuted(disagreement) => Outcome::refuted(&disagreement.to_string()),
     }
 }

@@ -12,10 +12,12 @@ mod fairness;
 mod focus;
 mod hazards;
 mod independence;
+mod judge;
 mod known;
 
 mod news;
 mod on_paths;
+mod options;
 mod possible;
 mod premises;
 mod refused;
@@ -26,12 +28,13 @@ mod views;
 mod why;
 
 pub use answer::{Answer, Change, Repair, Why, Writer};
-pub use check::{Options, check, check_aloud};
+pub use check::{check, check_aloud};
 pub use coverage::Coverage;
 pub use focus::Focus;
 pub use independence::Independence;
 pub use known::{Known, check_knowing, check_knowing_aloud, fingerprint};
 pub use news::{News, Tell};
+pub use options::Options;
 pub use remarks::Remark;
 
 use serde::{Deserialize, Serialize};
@@ -110,6 +113,12 @@ impl Verdict {
 }
 
 impl Outcome {
+    /// Unknown, because replay and search disagree: an error in Petril.
+    #[must_use]
+    pub fn refuted(what: &str) -> Self {
+        Self::Unknown(format!("the replay refutes the search, which is an error in Petril; please report it: {what}"))
+    }
+
     /// "Holds" without evidence.
     #[must_use]
     pub fn holds() -> Self {

@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use super::check::{Judge, disagreed};
 use super::fairness::states_where;
+use super::judge::Judge;
 use super::views::witness;
 use super::{Outcome, Vacuity};
 use crate::witness::Holds;
@@ -54,7 +54,7 @@ impl Judge<'_> {
         let assumed = self.fair.map_or(&[][..], |fair| fair.assumptions);
         let witness = match witness(self.view, &dag, &evidence, assumed, &look) {
             Ok(witness) => witness,
-            Err(disagreement) => return disagreed(&disagreement.to_string()),
+            Err(disagreement) => return Outcome::refuted(&disagreement.to_string()),
         };
         let seen = seen.into_inner();
         let mut next = 0;
@@ -64,7 +64,7 @@ impl Judge<'_> {
         });
         let holds = |atom: &usize, position: usize| seen[position].get(*atom).copied().unwrap_or(false);
         if numbered.holds_on(len, loop_start, &holds) {
-            return disagreed("the formula is true on the run that should show that it is not");
+            return Outcome::refuted("the formula is true on the run that should show that it is not");
         }
         Outcome::Violated(witness, None)
     }

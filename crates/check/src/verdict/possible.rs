@@ -1,8 +1,8 @@
 //! Verdicts on possibility: some run from power-on satisfies the formula.
 
 use super::Outcome;
-use super::check::{Judge, Labelled, STOPPED, disagreed};
 use super::failing::what_is_missing;
+use super::judge::{Judge, Labelled, STOPPED};
 use petril_logic::Bound;
 
 impl Judge<'_> {
@@ -13,7 +13,7 @@ impl Judge<'_> {
         let Some(labelled) = self.labelled(formula) else { return STOPPED };
         match self.shown(&labelled, labelled.yes) {
             Some(Ok((witness, _))) => return self.holds(formula, Some(witness)),
-            Some(Err(disagreement)) => return disagreed(&disagreement.to_string()),
+            Some(Err(disagreement)) => return Outcome::refuted(&disagreement.to_string()),
             None => {}
         }
         let is_false = graph.initial().iter().all(|&state| labelled.labels.of(labelled.no).contains(state as usize));

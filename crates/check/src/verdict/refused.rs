@@ -1,6 +1,6 @@
 //! Checks that are refused, because something in them was bound for another view or another system.
 
-use super::check::{Options, report};
+use super::options::Options;
 use super::{Answer, Outcome, Report, asserted};
 use crate::requirement::{Demand, misfit};
 use crate::translate::System;
@@ -27,5 +27,5 @@ pub(super) fn refused(system: &System, requirements: &[(Requirement, Demand)], o
     let required = requirements.iter().map(|(requirement, demand)| Answer::to(requirement, outcome(own(demand))));
     let asserted =
         options.assertions.iter().map(|assertion| asserted::answer(assertion, outcome(misfit(&assertion.formula))));
-    Some(Report { answers: required.chain(asserted).collect(), ..report(system, requirements, options, &graph, None) })
+    Some(Report { answers: required.chain(asserted).collect(), ..options.report(system, requirements, &graph, None) })
 }
