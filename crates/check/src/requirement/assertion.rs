@@ -5,10 +5,8 @@ use super::recalled::looks_back_one_scan;
 use crate::translate::{PlaceRole, System};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_lang::syntax::without_comments;
-use petril_logic::Bound;
-use petril_logic::Quantifier;
-use petril_logic::View;
 use petril_logic::{AssertionText, Origin};
+use petril_logic::{Bound, Quantifier, View};
 
 /// A bound assertion of a program.
 #[derive(Clone, Debug)]

@@ -5,9 +5,8 @@ use super::recalled::{Atom, looks_back_one_scan, visit};
 use crate::translate::System;
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_lang::semantics::Role;
-use petril_logic::AssumptionText;
-use petril_logic::Bound;
 use petril_logic::View;
+use petril_logic::{AssumptionText, Bound};
 
 /// A bound assumption about the inputs that a scan reads, and about the values at the end of the previous scan.
 #[derive(Clone, Debug)]

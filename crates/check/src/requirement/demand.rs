@@ -3,9 +3,8 @@
 use super::bind::bind;
 use crate::translate::System;
 use petril_base::diagnostic::{Code, Diagnostic};
-use petril_logic::Bound;
-use petril_logic::View;
 use petril_logic::{Body, Requirement};
+use petril_logic::{Bound, View};
 
 /// Bound body of a requirement.
 #[derive(Clone, Debug)]

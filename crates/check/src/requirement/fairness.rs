@@ -5,10 +5,7 @@ use crate::translate::{PlaceRole, System};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_lang::semantics::{Role, VarId};
-use petril_logic::Bound;
-use petril_logic::Formula;
-use petril_logic::View;
-use petril_logic::{Constraint, FairnessAssumption, FairnessText, Recurrence};
+use petril_logic::{Bound, Constraint, FairnessAssumption, FairnessText, Formula, Recurrence, View};
 use petril_net::net::TransitionId;
 
 /// Binds the names of a fairness assumption. Constraints on the plant refer to the net of this system.

@@ -4,8 +4,7 @@ use crate::translate::{PlaceRole, System};
 use petril_base::diagnostic::{Code, Diagnostic};
 use petril_base::source::Span;
 use petril_lang::semantics::{Kind, Role, VarId};
-use petril_logic::{Bound, Term};
-use petril_logic::{Name, ScanTime, Spot, View, Vocabulary};
+use petril_logic::{Bound, Name, ScanTime, Spot, Term, View, Vocabulary};
 use petril_net::net::{PlaceId, TransitionId};
 
 /// Vocabulary of a program in a view.

@@ -8,9 +8,8 @@
 use crate::translate::{Domain, Domains, System};
 use petril_lang::flat::{Cuts, FlatProgram};
 use petril_lang::semantics::VarId;
-use petril_logic::Comparison;
-use petril_logic::Past;
 use petril_logic::{Bound, Term};
+use petril_logic::{Comparison, Past};
 
 /// Computes representative values for each free input without a domain that the program and the formulas, which are
 /// bound for the scan view, only compare with constants.

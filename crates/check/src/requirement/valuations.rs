@@ -3,8 +3,7 @@
 use crate::scans::ScanSpace;
 use petril_base::PlaceId;
 use petril_lang::semantics::VarId;
-use petril_logic::Valuation;
-use petril_logic::{History, Past, remembered};
+use petril_logic::{History, Past, Valuation, remembered};
 use petril_search::Observer;
 
 /// Valuation of a packed scan state. Formulas bound for the scan view contain variables, and fairness assumptions
